@@ -1,0 +1,161 @@
+//! The seven places where an effect can act on the joint, so that solvers know places and never
+//! particular effects, and any set of effects composes.
+//!
+//! ```text
+//! F ─(force channel)─┬─[beside joint: across U]──────────────────────────┬─(displacement channel)─ U
+//!                    └─[in series]─[spring: K_1]─┬─ Iwan network u ──────┤
+//!                                                └─[beside slip: over u]─┘
+//! ```
+//! with the break-free forces of the network multiplied by the slip limit.
+
+use super::parameters::Parameter;
+
+/// Where an effect acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// Multiplies the break-free forces of the network.
+    SlipLimit,
+    /// A force in parallel with the network, over the slip displacement u.
+    BesideSlip,
+    /// A force in parallel with the whole joint, over U and its rate.
+    BesideJoint,
+    /// A further displacement of the series spring K_1, over the joint force.
+    Spring,
+    /// A further displacement in the load path, over the joint force and its history.
+    InSeries,
+    /// What the load cell adds to the true force.
+    ForceChannel,
+    /// What the displacement sensor and its amplifier add to the true displacement.
+    DisplacementChannel,
+}
+
+impl Place {
+    /// True for the two places of the measuring chain, which never enter an exported joint.
+    pub fn is_measurement(self) -> bool {
+        matches!(self, Place::ForceChannel | Place::DisplacementChannel)
+    }
+}
+
+/// State of the joint at one sample, as an effect may see it. SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Situation {
+    /// Time [s]; sample number where the record has no time.
+    pub time: f64,
+    /// Length of the step that ends here [s]; zero at the first sample.
+    pub step: f64,
+    /// Force through the load path (network, spring, series elements) [N].
+    pub force: f64,
+    /// Total displacement U [m].
+    pub displacement: f64,
+    /// Rate of U [m/s].
+    pub velocity: f64,
+    /// Displacement of the Iwan network u [m].
+    pub slip: f64,
+    /// Rate of u [m/s].
+    pub slip_rate: f64,
+    /// Energy dissipated by the network so far [J].
+    pub dissipation: f64,
+}
+
+/// Multipliers of the break-free forces, one per direction of sliding; 1 leaves them as they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlipLimit {
+    /// For sliding towards positive u.
+    pub positive: f64,
+    /// For sliding towards negative u.
+    pub negative: f64,
+}
+
+impl SlipLimit {
+    /// The limit that changes nothing.
+    pub const UNCHANGED: SlipLimit = SlipLimit {
+        positive: 1.0,
+        negative: 1.0,
+    };
+}
+
+/// Value of a law and its derivative with respect to the law's own argument.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Response {
+    /// Force [N] or displacement [m], by place.
+    pub value: f64,
+    /// d value / d argument (slip, displacement or force), ≥ 0 for a stable effect.
+    pub slope: f64,
+    /// d value / d velocity, for places beside the joint only.
+    pub damping: f64,
+}
+
+/// A whole record as a measuring chain sees it; channels of equal length.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trajectory {
+    /// Time [s]; sample numbers where the record has no time.
+    pub time: Vec<f64>,
+    /// Force [N].
+    pub force: Vec<f64>,
+    /// Displacement [m].
+    pub displacement: Vec<f64>,
+}
+
+/// One effect: a law at one place. Values of its parameters come as a slice in the order of
+/// [`Effect::parameters`]; its history lives in a slice of [`Effect::memory`] numbers that the
+/// simulation owns, so that saving and restoring a simulation needs nothing from the effect.
+pub trait Effect: Send + Sync {
+    /// Contract name, e.g. `pinning`.
+    fn name(&self) -> &'static str;
+    /// Where it acts.
+    fn place(&self) -> Place;
+    /// Glossary of its parameters.
+    fn parameters(&self) -> &'static [Parameter];
+    /// Count of numbers of history it keeps.
+    fn memory(&self) -> usize {
+        0
+    }
+    /// Takes an accepted sample into the history.
+    fn remember(&self, _values: &[f64], _now: &Situation, _memory: &mut [f64]) {}
+    /// [`Place::SlipLimit`]: multipliers from the last accepted situation and the history.
+    fn slip_limit(&self, _values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
+        SlipLimit::UNCHANGED
+    }
+    /// [`Place::BesideSlip`]: force [N] over slip u [m].
+    fn beside_slip(&self, _values: &[f64], _slip: f64, _memory: &[f64]) -> Response {
+        Response::default()
+    }
+    /// [`Place::BesideJoint`]: force [N] over displacement U [m] and velocity [m/s].
+    fn beside_joint(&self, _values: &[f64], _displacement: f64, _velocity: f64) -> Response {
+        Response::default()
+    }
+    /// [`Place::Spring`]: displacement [m] beyond F/K_1, over force [N].
+    fn spring(&self, _values: &[f64], _force: f64) -> Response {
+        Response::default()
+    }
+    /// [`Place::InSeries`]: further displacement [m] over force [N] at the end of a step [s].
+    fn in_series(&self, _values: &[f64], _force: f64, _step: f64, _memory: &[f64]) -> Response {
+        Response::default()
+    }
+    /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
+    /// channel it acts on, one number per sample (measured = true + added).
+    fn channel(&self, _values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        vec![0.0; truth.time.len()]
+    }
+}
+
+/// An effect with the values of its parameters.
+#[derive(Clone)]
+pub struct Acting {
+    /// The law.
+    pub effect: &'static dyn Effect,
+    /// Values in the order of its glossary.
+    pub values: Vec<f64>,
+}
+
+impl std::fmt::Debug for Acting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{:?}", self.effect.name(), self.values)
+    }
+}
+
+impl PartialEq for Acting {
+    fn eq(&self, other: &Self) -> bool {
+        self.effect.name() == other.effect.name() && self.values == other.values
+    }
+}

@@ -1,0 +1,12 @@
+//! Segalman's augmented Iwan joint (SAND2001-0811): simulated exactly, identified from measured
+//! force and displacement, diagnosed for what the baseline gets wrong, exported as an FMU.
+//!
+//! SI units inside; every name that could be doubted carries its unit. ARCHITECTURE.md follows a
+//! record through the rooms.
+
+pub mod causes;
+#[cfg(feature = "tool")]
+pub mod diagnose;
+pub mod joint;
+#[cfg(feature = "tool")]
+pub mod record;

@@ -1,0 +1,62 @@
+//! A measurement as values. SI units.
+
+/// Force and displacement of one test.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Record {
+    /// Name to show: the file's stem.
+    pub name: String,
+    /// Time \[s\], strictly increasing; `None` where the file has none.
+    pub time: Option<Vec<f64>>,
+    /// Force \[N\].
+    pub force: Vec<f64>,
+    /// Displacement \[m\].
+    pub displacement: Vec<f64>,
+    /// Preload \[N\], where measured.
+    pub preload: Option<Vec<f64>>,
+    /// Temperature \[K or °C as given\], where measured.
+    pub temperature: Option<Vec<f64>>,
+    /// Acceleration \[m/s²\], where measured.
+    pub acceleration: Option<Vec<f64>>,
+}
+
+impl Record {
+    /// Count of samples.
+    pub fn len(&self) -> usize {
+        self.force.len()
+    }
+    /// True where there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.force.is_empty()
+    }
+    /// Time \[s\], or the sample number where the record has none.
+    pub fn clock(&self) -> Vec<f64> {
+        match &self.time {
+            Some(time) => time.clone(),
+            None => (0..self.len()).map(|i| i as f64).collect(),
+        }
+    }
+}
+
+/// What many laboratories keep: one row per load level, no time histories.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AmplitudeTable {
+    /// Name to show: the file's stem.
+    pub name: String,
+    /// F_0 \[N\].
+    pub force_amplitude: Vec<f64>,
+    /// Dissipation per cycle \[J\].
+    pub dissipation: Vec<f64>,
+    /// U_0 \[m\], where measured.
+    pub displacement_amplitude: Option<Vec<f64>>,
+    /// Frequency \[Hz\], where measured.
+    pub frequency: Option<Vec<f64>>,
+}
+
+/// What a file can hold.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measurement {
+    /// A time history.
+    History(Record),
+    /// An amplitude table.
+    Amplitudes(AmplitudeTable),
+}
