@@ -11,7 +11,6 @@ import argparse
 import csv
 import html
 import json
-import os
 import re
 import shutil
 import sys
@@ -27,12 +26,12 @@ import numpy as np
 mpl.use("svg")
 import matplotlib.pyplot as plt
 
-# What the record format allows in brackets, in SI.
+# Units as the record format has them in brackets, in SI.
 SI = {
-    "s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0,
-    "n": 1.0, "kn": 1e3, "mn": 1e-3, "lbf": 4.4482216152605, "kip": 4448.2216152605, "dyn": 1e-5,
-    "m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254,
-}  # fmt: skip
+    **{"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
+    **{"N": 1.0, "kN": 1e3, "mN": 1e-3, "MN": 1e6, "lbf": 4.4482216152605, "dyn": 1e-5},
+    **{"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "in": 0.0254},
+}
 
 MARKERS = ("<!-- co-simulation -->", "<!-- /co-simulation -->")
 
@@ -78,7 +77,7 @@ def read_record(path: Path) -> Record:
     for index, title in enumerate(rows[0]):
         match = re.fullmatch(r"\s*(\w+)[^\[(]*[\[(]\s*(\S+?)\s*[\])]\s*", title)
         if match:
-            columns[match[1].lower()] = (index, SI.get(match[2].lower()))
+            columns[match[1].lower()] = (index, SI.get(match[2].replace("μ", "µ")))
     channels = {}
     for name in ("time", "force", "displacement"):
         index, scale = columns.get(name, (None, None))
@@ -177,7 +176,7 @@ def describe(runs: list[Run], answer: str, result: Path) -> list[str]:
         sentences.append(
             f"{run.record.name}: measured − FMU {scale * left:.3g} {unit} rms, "
             f"{100 * left / swing:.2g} % of the measured {answer} "
-            f"({len(run.measured)} samples, constant offset {scale * run.offset:.3g} {unit} removed)."
+            f"({len(run.measured)} samples; offset {scale * run.offset:.3g} {unit} taken out)."
         )
     diagnosis = json.loads((result / "diagnosis.json").read_text(encoding="utf-8"))
     chain = [c["name"] for c in diagnosis["causes"] if c["kind"] == "measurement"]
@@ -217,7 +216,7 @@ def write(path: Path, fill) -> None:
     """Writes beside the target and renames, so that no half file is ever left."""
     part = path.with_name(path.name + ".part")
     fill(part)
-    os.replace(part, path)
+    part.replace(path)
 
 
 def main() -> int:
