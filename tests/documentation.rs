@@ -38,7 +38,11 @@ fn blocks(page: &str) -> Vec<Block> {
             Some(language) => {
                 open = true;
                 let language = language.trim().to_string();
-                blocks.push(Block { language, line: index + 1, text: String::new() });
+                blocks.push(Block {
+                    language,
+                    line: index + 1,
+                    text: String::new(),
+                });
             }
             None if open => {
                 let block = blocks.last_mut().unwrap();
@@ -59,7 +63,11 @@ fn folder() -> PathBuf {
     fs::create_dir_all(folder.join("examples")).unwrap();
     for entry in fs::read_dir(root().join("examples")).unwrap() {
         let entry = entry.unwrap();
-        fs::copy(entry.path(), folder.join("examples").join(entry.file_name())).unwrap();
+        fs::copy(
+            entry.path(),
+            folder.join("examples").join(entry.file_name()),
+        )
+        .unwrap();
     }
     folder
 }
@@ -77,7 +85,9 @@ fn run(commands: &str, folder: &Path) -> Output {
 
 /// The number that a word is, without the punctuation around it.
 fn number(word: &str) -> Option<f64> {
-    word.trim_matches(|c: char| !(c.is_ascii_digit() || c == '-' || c == '+')).parse().ok()
+    word.trim_matches(|c: char| !(c.is_ascii_digit() || c == '-' || c == '+'))
+        .parse()
+        .ok()
 }
 
 /// First place where two outputs differ, or `None`.
@@ -96,7 +106,11 @@ fn difference(expected: &str, printed: &str) -> Option<String> {
             _ => false,
         };
         if !same {
-            return Some(format!("the page says `{}`, printed was `{}`", a.unwrap_or("end"), b.unwrap_or("end")));
+            return Some(format!(
+                "the page says `{}`, printed was `{}`",
+                a.unwrap_or("end"),
+                b.unwrap_or("end")
+            ));
         }
     }
 }
@@ -110,12 +124,17 @@ fn commands_of_the_readme_do_what_it_says() {
     let mut count = 0;
     let mut faults = Vec::new();
     for (index, block) in blocks.iter().enumerate() {
-        let is_set_up = NOT_RUN_HERE.iter().any(|start| block.text.starts_with(start));
+        let is_set_up = NOT_RUN_HERE
+            .iter()
+            .any(|start| block.text.starts_with(start));
         if block.language != "sh" || is_set_up {
             continue;
         }
         if block.text.contains("iwan check") && !cfg!(feature = "importer") {
-            eprintln!("README.md:{}: not run, `iwan check` needs --features importer", block.line);
+            eprintln!(
+                "README.md:{}: not run, `iwan check` needs --features importer",
+                block.line
+            );
             continue;
         }
         count += 1;
@@ -123,7 +142,10 @@ fn commands_of_the_readme_do_what_it_says() {
         let printed = String::from_utf8_lossy(&output.stdout).into_owned();
         if !output.status.success() {
             let errors = String::from_utf8_lossy(&output.stderr);
-            faults.push(format!("README.md:{}: {}\n{errors}", block.line, output.status));
+            faults.push(format!(
+                "README.md:{}: {}\n{errors}",
+                block.line, output.status
+            ));
             continue;
         }
         let Some(expected) = blocks.get(index + 1).filter(|next| next.language == "text") else {
@@ -132,7 +154,11 @@ fn commands_of_the_readme_do_what_it_says() {
         if std::env::var_os("UPDATE_README").is_some() {
             let old = format!("{}```\n\n```text\n{}```", block.text, expected.text);
             let new = format!("{}```\n\n```text\n{}\n```", block.text, printed.trim_end());
-            assert!(page.contains(&old), "README.md:{}: not found again", expected.line);
+            assert!(
+                page.contains(&old),
+                "README.md:{}: not found again",
+                expected.line
+            );
             page = page.replacen(&old, &new, 1);
         } else if let Some(fault) = difference(&expected.text, &printed) {
             faults.push(format!("README.md:{}: {fault}\n{printed}", expected.line));

@@ -56,14 +56,21 @@ fn tracked() -> Vec<String> {
         .current_dir(root())
         .output()
         .expect("git lists the files of the repository");
-    assert!(listing.status.success(), "{}", String::from_utf8_lossy(&listing.stderr));
+    assert!(
+        listing.status.success(),
+        "{}",
+        String::from_utf8_lossy(&listing.stderr)
+    );
     let files: Vec<String> = String::from_utf8(listing.stdout)
         .unwrap()
         .lines()
         .filter(|path| root().join(path).is_file())
         .map(str::to_string)
         .collect();
-    assert!(files.iter().any(|path| path == "Cargo.toml"), "git lists no Cargo.toml");
+    assert!(
+        files.iter().any(|path| path == "Cargo.toml"),
+        "git lists no Cargo.toml"
+    );
     files
 }
 
@@ -72,7 +79,9 @@ fn lines() -> Vec<(String, usize, String)> {
     let mut all = Vec::new();
     for path in tracked() {
         // A file that is no UTF-8 is no text: an archive or a picture.
-        let Ok(text) = fs::read_to_string(root().join(&path)) else { continue };
+        let Ok(text) = fs::read_to_string(root().join(&path)) else {
+            continue;
+        };
         for (index, line) in text.lines().enumerate() {
             all.push((path.clone(), index + 1, line.to_string()));
         }
@@ -125,7 +134,10 @@ fn no_file_names_a_registry() {
 #[test]
 fn every_package_comes_from_the_public_registry() {
     let lock = fs::read_to_string(root().join("Cargo.lock")).unwrap();
-    let sources: Vec<&str> = lock.lines().filter(|line| line.starts_with("source = ")).collect();
+    let sources: Vec<&str> = lock
+        .lines()
+        .filter(|line| line.starts_with("source = "))
+        .collect();
     assert!(!sources.is_empty());
     for source in sources {
         let public = "source = \"registry+https://github.com/rust-lang/crates.io-index\"";
@@ -137,15 +149,22 @@ fn every_package_comes_from_the_public_registry() {
 fn files_speak_of_the_project_alone() {
     assert_absent("words that are not about the project", |path, line| {
         let generated = path == "Cargo.lock";
-        FOREIGN_WORDS.into_iter().find(|word| !generated && has_word(line, word))
+        FOREIGN_WORDS
+            .into_iter()
+            .find(|word| !generated && has_word(line, word))
     });
 }
 
 #[test]
 fn foreign_and_generated_files_stay_out() {
     for path in tracked() {
-        let foreign = FOREIGN_FOLDERS.iter().find(|folder| path.starts_with(*folder));
-        assert!(foreign.is_none(), "{path} does not belong into the repository");
+        let foreign = FOREIGN_FOLDERS
+            .iter()
+            .find(|folder| path.starts_with(*folder));
+        assert!(
+            foreign.is_none(),
+            "{path} does not belong into the repository"
+        );
         let bytes = fs::metadata(root().join(&path)).unwrap().len();
         assert!(bytes <= LARGEST_BYTES, "{path} has {bytes} bytes");
     }
@@ -159,7 +178,10 @@ fn continuous_integration_runs_what_the_readme_says() {
         .lines()
         .map(str::trim)
         .filter(|line| {
-            !(line.is_empty() || line.starts_with('#') || line.starts_with("set ") || line.starts_with("cd "))
+            !(line.is_empty()
+                || line.starts_with('#')
+                || line.starts_with("set ")
+                || line.starts_with("cd "))
         })
         .collect();
     assert!(!commands.is_empty(), ".ci/run runs nothing");
