@@ -1,12 +1,9 @@
 //! What may stand in the repository's files: nothing that belongs to one machine, and nothing but
 //! the project.
 
-mod source;
-
 use std::fs;
+use std::path::PathBuf;
 use std::process::Command;
-
-use source::root;
 
 /// Folders of one machine. Written in halves, so that this file passes its own test.
 const MACHINE_PATHS: [&str; 7] = [
@@ -48,6 +45,10 @@ const FOREIGN_FOLDERS: [&str; 4] = ["shared/", "target/", ".venv/", "result/"];
 
 /// Larger files belong elsewhere: the bundled records are the largest thing an engineer clones.
 const LARGEST_BYTES: u64 = 3_000_000;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
 
 /// Files that git keeps or would keep.
 fn tracked() -> Vec<String> {
