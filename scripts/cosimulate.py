@@ -8,6 +8,7 @@ that a second run replaces it. Exit status 1 where fmpy finds fault with the FMU
 """
 
 import argparse
+import base64
 import csv
 import html
 import json
@@ -32,6 +33,9 @@ SI = {
     **{"N": 1.0, "kN": 1e3, "mN": 1e-3, "MN": 1e6, "lbf": 4.4482216152605, "dyn": 1e-5},
     **{"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "in": 0.0254},
 }
+
+# Colours of the report for the same things.
+MEASURED, FMU = "#8a8f98", "#0072b2"
 
 MARKERS = ("<!-- co-simulation -->", "<!-- /co-simulation -->")
 
@@ -147,20 +151,20 @@ def draw(runs: list[Run], answer: str, path: Path) -> None:
     for (trajectory, difference, loops), run in zip(axes.T, runs, strict=True):
         record, fmu = run.record, run.simulated + run.offset
         trajectory.set_title(record.name)
-        trajectory.plot(record.time, scale * run.measured, color="0.6", lw=2.0, label="measured")
-        trajectory.plot(record.time, scale * fmu, color="C3", lw=0.8, label="FMU in fmpy")
+        trajectory.plot(record.time, scale * run.measured, color=MEASURED, lw=2.0, label="measured")
+        trajectory.plot(record.time, scale * fmu, color=FMU, lw=0.8, label="FMU in fmpy")
         trajectory.set(xlabel="time [s]", ylabel=f"{answer} [{unit}]")
-        trajectory.legend(loc="upper right")
-        difference.plot(record.time, scale * run.difference, color="C0", lw=0.6)
+        trajectory.legend(loc="upper left")
+        difference.plot(record.time, scale * run.difference, color="#1d2430", lw=0.6)
         difference.set(xlabel="time [s]", ylabel=f"measured − FMU [{unit}]")
         pair = (record.force, run.measured, fmu)
         if answer == "displacement":
-            loops.plot(scale * pair[1], pair[0], color="0.6", lw=2.0)
-            loops.plot(scale * pair[2], pair[0], color="C3", lw=0.8)
+            loops.plot(scale * pair[1], pair[0], color=MEASURED, lw=2.0)
+            loops.plot(scale * pair[2], pair[0], color=FMU, lw=0.8)
             loops.set(xlabel=f"displacement [{unit}]", ylabel="force [N]")
         else:
-            loops.plot(1e6 * record.displacement, pair[1], color="0.6", lw=2.0)
-            loops.plot(1e6 * record.displacement, pair[2], color="C3", lw=0.8)
+            loops.plot(1e6 * record.displacement, pair[1], color=MEASURED, lw=2.0)
+            loops.plot(1e6 * record.displacement, pair[2], color=FMU, lw=0.8)
             loops.set(xlabel="displacement [µm]", ylabel="force [N]")
     write(path, lambda part: figure.savefig(part, format="svg", metadata={"Date": None}))
     plt.close(figure)
@@ -190,25 +194,28 @@ def describe(runs: list[Run], answer: str, result: Path) -> list[str]:
 
 
 def put_into_report(report: Path, picture: Path, sentences: list[str]) -> None:
-    """Places the picture at the end of the report, or in place of an earlier one."""
+    """Places the picture at the end of the report, or in place of an earlier one.
+
+    As an image with its data inside: the page stays one file, and the picture's style rules and
+    identifiers cannot touch the page's.
+    """
     page = report.read_text(encoding="utf-8")
-    svg = picture.read_text(encoding="utf-8")
-    svg = svg[svg.index("<svg") :].replace("<svg ", '<svg style="max-width:100%;height:auto" ', 1)
+    data = base64.b64encode(picture.read_bytes()).decode("ascii")
     text = "".join(f"<p>{html.escape(sentence)}</p>\n" for sentence in sentences)
     section = (
-        f'{MARKERS[0]}\n<section id="co-simulation">\n<h2>Co-simulation of joint.fmu</h2>\n'
-        f"{text}{svg}\n</section>\n{MARKERS[1]}\n"
+        f'{MARKERS[0]}\n<section id="co-simulation">\n<h2>Co-simulation of joint.fmu</h2>\n{text}'
+        f'<img style="max-width:100%" alt="FMU over the measurement" '
+        f'src="data:image/svg+xml;base64,{data}">\n</section>\n{MARKERS[1]}\n'
     )
     begin, end = page.find(MARKERS[0]), page.find(MARKERS[1])
     if 0 <= begin < end:
-        after = page[end + len(MARKERS[1]) :].removeprefix("\n")
-        page = page[:begin] + section + after
+        page = page[:begin] + section + page[end + len(MARKERS[1]) :].removeprefix("\n")
     else:
-        close = page.rfind("</main>")
-        close = close if close >= 0 else page.rfind("</body>")
-        if close < 0:
+        places = [page.rfind(tag) for tag in ("<footer", "</main>", "</body>")]
+        place = next((found for found in places if found >= 0), None)
+        if place is None:
             raise BadInput(f"{report}: no </body> to place the co-simulation before")
-        page = page[:close] + section + page[close:]
+        page = page[:place] + section + page[place:]
     write(report, lambda part: part.write_text(page, encoding="utf-8"))
 
 
