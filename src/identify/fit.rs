@@ -3,7 +3,7 @@
 //! Kaufman: the dictionary is linear, only effect parameters are stepped).
 
 use super::nonnegative::Normal;
-use super::problem::{Prediction, Problem};
+use super::problem::{Prediction, Problem, Weighing};
 use crate::joint::effect::Acting;
 
 /// A fitted model.
@@ -67,7 +67,7 @@ pub fn refine(
     let mut predictions = predictions;
     for round in 0..steps {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);
-        let normal = normal(problem, &coefficients, &effects, &slopes);
+        let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
         let records = problem.records.len();
         let mut bounded = vec![true; normal.size];
         bounded[columns..].iter_mut().for_each(|b| *b = false);
@@ -110,14 +110,14 @@ pub fn refine(
 }
 
 /// One derivative column: effect, parameter, step of the difference, values per record.
-struct Slope {
+pub(super) struct Slope {
     effect: usize,
     parameter: usize,
     unit: f64,
-    values: Vec<Vec<f64>>,
+    pub(super) values: Vec<Vec<f64>>,
 }
 
-fn slopes(
+pub(super) fn slopes(
     problem: &Problem,
     coefficients: &[f64],
     effects: &[Acting],
@@ -156,29 +156,26 @@ fn slopes(
 }
 
 /// Normal equations of the linearised model: coefficients, offsets, moves of the parameters.
-fn normal(problem: &Problem, coefficients: &[f64], effects: &[Acting], slopes: &[Slope]) -> Normal {
+fn normal(
+    problem: &Problem,
+    coefficients: &[f64],
+    effects: &[Acting],
+    at: &[Prediction],
+    slopes: &[Slope],
+) -> Normal {
     let columns = problem.operators.columns();
     let records = problem.records.len();
     let size = columns + records + slopes.len();
     let mut normal = Normal::new(size);
-    let additions: Vec<Vec<f64>> = (0..records)
-        .map(|k| problem.pass(k, coefficients, effects, |_, _, _| {}).judged)
-        .collect();
     for k in 0..records {
         let record = &problem.records[k];
         let (_, measured) = problem.channels(k);
-        let autoregression = record.autoregression;
-        let mut row = vec![0.0; size];
-        let mut before = vec![0.0; size];
-        let mut white = vec![0.0; size];
-        let mut target_before = None;
+        let mut weighing = Weighing::new(record, size + 1);
+        let mut row = vec![0.0; size + 1];
         problem.pass(k, coefficients, effects, |i, march, step| {
-            row[0] = march.input() * step.share;
-            for (value, position) in row[1..columns].iter_mut().zip(march.positions()) {
-                *value = position * step.share;
-            }
+            march.row(step, &mut row[..columns]);
             row[columns + k] = 1.0;
-            for (value, slope) in row[columns + records..].iter_mut().zip(slopes) {
+            for (value, slope) in row[columns + records..size].iter_mut().zip(slopes) {
                 *value = slope.values[k][i];
             }
             let linear: f64 = row[..columns]
@@ -186,24 +183,10 @@ fn normal(problem: &Problem, coefficients: &[f64], effects: &[Acting], slopes: &
                 .zip(coefficients)
                 .map(|(x, c)| x * c)
                 .sum();
-            let target = measured[i] - additions[k][i] + linear;
-            let weight = record.weight[i];
-            let (factor, start) = match target_before {
-                Some(_) => (autoregression, weight),
-                None => (
-                    0.0,
-                    weight * (1.0 - autoregression * autoregression).max(0.0).sqrt(),
-                ),
-            };
-            if weight > 0.0 {
-                for ((z, x), b) in white.iter_mut().zip(&row).zip(&before) {
-                    *z = (x - factor * b) * start;
-                }
-                let z = (target - factor * target_before.unwrap_or(0.0)) * start;
-                normal.add(&white, z);
+            row[size] = measured[i] - at[k].judged[i] + linear;
+            if let Some(white) = weighing.weigh(i, &row) {
+                normal.add(&white[..size], white[size]);
             }
-            before.copy_from_slice(&row);
-            target_before = Some(target);
         });
     }
     normal.mirror();

@@ -58,17 +58,16 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Operators' values after the last accepted sample, without the elastic column.
-    pub fn positions(&self) -> &[f64] {
-        &self.positions
-    }
-
-    /// The network's own input after the last accepted sample: force [N] for plays, slip [m] for
-    /// stops; the elastic column of the dictionary.
-    pub fn input(&self) -> f64 {
-        match self.operators.form {
-            Form::Play => self.network_force(),
-            Form::Stop => self.last.slip,
+    /// Row of the dictionary at the last accepted sample: what the judged channel gains per unit
+    /// of each coefficient, the elastic one first.
+    pub fn row(&self, step: Step, row: &mut [f64]) {
+        row[0] = step.share
+            * match self.operators.form {
+                Form::Play => self.network_force(),
+                Form::Stop => self.last.slip,
+            };
+        for (value, position) in row[1..].iter_mut().zip(&self.positions) {
+            *value = position * step.share;
         }
     }
 

@@ -5,7 +5,9 @@ pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
+pub mod score;
 
 pub use fit::{Fit, baseline, refit};
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};
+pub use score::{Score, scores};

@@ -83,16 +83,7 @@ impl Normal {
     /// tests below.
     pub fn solve(&self, bounded: &[bool]) -> Vec<f64> {
         let n = self.size;
-        let scale: Vec<f64> = (0..n)
-            .map(|i| {
-                let diagonal = self.gram[i * n + i];
-                if diagonal > 0.0 {
-                    diagonal.sqrt().recip()
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let scale = self.scale();
         let mut x = vec![0.0; n];
         let mut passive: Vec<bool> = (0..n).map(|i| !bounded[i] && scale[i] > 0.0).collect();
         let tolerance = 1e-11 * self.square.sqrt();
@@ -198,9 +189,31 @@ impl Normal {
         )
     }
 
-    /// Diagonal of the inverse over the given unknowns: variances in units of the noise variance.
-    pub fn variances(&self, members: &[usize]) -> Vec<f64> {
-        let scale: Vec<f64> = (0..self.size)
+    /// For another column with the given inner products `cross`: how much of its own square and of
+    /// its product with the target the given unknowns account for, `(vᵀA⁻¹v, vᵀA⁻¹b)`.
+    pub fn project(&self, members: &[usize], cross: &[f64]) -> Option<(f64, f64)> {
+        let mut other = Normal {
+            right: cross.to_vec(),
+            ..self.clone()
+        };
+        other.square = 0.0;
+        let solution = other.solve_members(members, &self.scale())?;
+        let explained = members
+            .iter()
+            .zip(&solution)
+            .map(|(&i, v)| v * cross[i])
+            .sum();
+        let along = members
+            .iter()
+            .zip(&solution)
+            .map(|(&i, v)| v * self.right[i])
+            .sum();
+        Some((explained, along))
+    }
+
+    /// One over the root of the diagonal; zero where a column is empty.
+    fn scale(&self) -> Vec<f64> {
+        (0..self.size)
             .map(|i| {
                 let diagonal = self.gram[i * self.size + i];
                 if diagonal > 0.0 {
@@ -209,7 +222,12 @@ impl Normal {
                     0.0
                 }
             })
-            .collect();
+            .collect()
+    }
+
+    /// Diagonal of the inverse over the given unknowns: variances in units of the noise variance.
+    pub fn variances(&self, members: &[usize]) -> Vec<f64> {
+        let scale = self.scale();
         members
             .iter()
             .enumerate()
