@@ -11,4 +11,6 @@ pub mod diagnose;
 pub mod identify;
 pub mod joint;
 #[cfg(feature = "tool")]
+pub mod read;
+#[cfg(feature = "tool")]
 pub mod record;
