@@ -45,6 +45,37 @@ pub trait VirginCurve {
     }
 }
 
+/// A borrowed curve is a curve: many responses may share one.
+impl<C: VirginCurve + ?Sized> VirginCurve for &C {
+    fn force(&self, slip: f64) -> f64 {
+        (**self).force(slip)
+    }
+    fn stiffness(&self, slip: f64) -> f64 {
+        (**self).stiffness(slip)
+    }
+    fn displacement(&self, force: f64) -> f64 {
+        (**self).displacement(force)
+    }
+    fn compliance(&self, force: f64) -> f64 {
+        (**self).compliance(force)
+    }
+    fn leg_dissipation(&self, slip: f64) -> f64 {
+        (**self).leg_dissipation(slip)
+    }
+    fn full_slip_force(&self) -> f64 {
+        (**self).full_slip_force()
+    }
+    fn initial_stiffness(&self) -> f64 {
+        (**self).initial_stiffness()
+    }
+    fn slipped_stiffness(&self, slip: f64) -> f64 {
+        (**self).slipped_stiffness(slip)
+    }
+    fn slipped_force(&self, slip: f64) -> f64 {
+        (**self).slipped_force(slip)
+    }
+}
+
 /// A network behind its spring: the virgin curve of the augmented joint over U, `U = u + F/K_1`
 /// (Eq. 52).
 ///
