@@ -4,8 +4,8 @@
 ///
 /// `G(u) = Λ_1(ku) + ku [Λ_0(∞) − Λ_0(ku)]` (Eq. 30, 34), concave and increasing, with the moments
 /// `Λ_n(θ) = ∫_0^θ ρ φ^n dφ` (Eq. 32);
-/// `k² ρ(ku) = −G''(u)` (Eq. 31: the print lacks the minus sign). A slider slides at `|f| = φ`
-/// (Eq. 27, where the print has a strict inequality on both sides).
+/// `k² ρ(ku) = −G''(u)` (Eq. 31: the print lacks the minus sign). A slider slides at `|f| = φ`,
+/// which is how Eq. 27 is to be read.
 pub trait VirginCurve {
     /// `G(u)` \[N\] for slip displacement `u ≥ 0` \[m\].
     fn force(&self, slip: f64) -> f64;

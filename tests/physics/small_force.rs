@@ -92,9 +92,9 @@ fn largest_slip_from_residual_slip() {
     }
 }
 
-/// Eq. 8 mended: a rod in a sleeve that yields at ν per length. Its slip front runs to x = F/(2ν)…,
-/// its virgin curve is `u = F²/(2 EA f)` with f the friction per length; a loop loses
-/// `(2/3) F_0³/(EA f)`, f = 2Nν: no square, and the exponent 3 of χ = 0.
+/// Eq. 8 mended: a rod held by a friction of f = 2Nν per length slips over F/f of it, so its end
+/// moves by `u = F²/(2 EA f)`; a loop loses `(2/3) F_0³/(EA f)`: no square, and the exponent 3 of
+/// χ = 0.
 #[test]
 fn slipping_rod_is_the_case_of_exponent_zero() {
     let (modulus_area, friction) = (2.0e7, 5.0e4);
