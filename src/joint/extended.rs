@@ -94,7 +94,9 @@ impl Extended {
             input: 0.0,
         };
         extended.now.displacement = extended.laws.in_load_path(0.0, 0.0).value;
-        extended.network.begin(extended.laws.slip_limit(&extended.now));
+        extended
+            .network
+            .begin(extended.laws.slip_limit(&extended.now));
         let start = extended.point(0.0, 0.0, true);
         extended.tangent = start.elastic / start.stretch;
         extended
@@ -112,7 +114,10 @@ impl Extended {
                     force: input,
                     full_slip,
                 },
-                _ => JointError::NotFinite { time, value: f64::NAN },
+                _ => JointError::NotFinite {
+                    time,
+                    value: f64::NAN,
+                },
             }
         })?;
         self.accept(time, step, input, slip);
@@ -152,7 +157,11 @@ impl Extended {
         let stretch = 1.0 + (self.flexibility + path.slope) * load_slope;
         let velocity = self.velocity(displacement, step);
         let parallel = self.laws.beside_joint(displacement, velocity);
-        let damping = if step > 0.0 { parallel.damping / step } else { 0.0 };
+        let damping = if step > 0.0 {
+            parallel.damping / step
+        } else {
+            0.0
+        };
         let elastic = load_slope + parallel.slope * stretch;
         Point {
             load,
@@ -186,7 +195,11 @@ impl Extended {
             displacement: point.displacement,
             velocity: self.velocity(point.displacement, step),
             slip,
-            slip_rate: if step > 0.0 { (slip - from.slip) / step } else { 0.0 },
+            slip_rate: if step > 0.0 {
+                (slip - from.slip) / step
+            } else {
+                0.0
+            },
             dissipation: from.dissipation + loss,
         };
         let works = self.ledger.work(&self.laws, &Leg { from, to: self.now });
@@ -225,8 +238,20 @@ impl Extended {
     /// Appends the complete state.
     pub fn save(&self, state: &mut Vec<f64>) {
         let now = &self.now;
-        state.extend([now.time, now.step, now.force, now.displacement, now.velocity]);
-        state.extend([now.slip, now.slip_rate, now.dissipation, self.tangent, self.input]);
+        state.extend([
+            now.time,
+            now.step,
+            now.force,
+            now.displacement,
+            now.velocity,
+        ]);
+        state.extend([
+            now.slip,
+            now.slip_rate,
+            now.dissipation,
+            self.tangent,
+            self.input,
+        ]);
         self.network.save(state);
         self.ledger.save(state);
         state.extend_from_slice(self.laws.memory());
@@ -237,8 +262,19 @@ impl Extended {
         let network = self.network.state_length();
         let ledger = self.ledger.state_length();
         let expected = SITUATION + network + ledger + self.laws.memory().len();
-        let [time, step, force, displacement, velocity, slip, slip_rate, dissipation, tangent, input, rest @ ..] =
-            state
+        let [
+            time,
+            step,
+            force,
+            displacement,
+            velocity,
+            slip,
+            slip_rate,
+            dissipation,
+            tangent,
+            input,
+            rest @ ..,
+        ] = state
         else {
             return Err(foreign(expected, state.len()));
         };

@@ -3,19 +3,21 @@
 pub mod density;
 pub mod effect;
 mod extended;
+pub mod memory;
 pub mod network;
 pub mod parameters;
 pub mod play;
 pub mod simulation;
 pub mod virgin;
 
-pub use density::{Density, Sliders};
+pub use density::{Density, FourParameter, PowerLaw, PowerLawTable, Sliders, SmallForce};
 pub use effect::{Acting, Effect, Place, Response, Situation, SlipLimit, Trajectory};
+pub use memory::ExactResponse;
 pub use network::Network;
 pub use parameters::Parameter;
 pub use play::{PlayNetwork, Plays};
 pub use simulation::{Drive, JointError, Output, Simulation};
-pub use virgin::VirginCurve;
+pub use virgin::{BehindSpring, VirginCurve};
 
 /// Segalman's augmented joint (Eq. 52): a spring K_1 in series with an Iwan network, and the
 /// effects that act on it.
@@ -54,15 +56,16 @@ impl Joint {
     /// [`JointError::OutOfRange`] names the parameter as `cause.parameter`;
     /// [`JointError::WrongCount`] where an effect has more or fewer values than parameters.
     pub fn check(&self) -> Result<(), JointError> {
-        within(&SERIES_STIFFNESS, SERIES_STIFFNESS.name, self.series_stiffness)?;
-        if !(self.density.initial_stiffness() > 0.0) {
-            return Err(JointError::OutOfRange {
-                name: "initial stiffness of the density".into(),
-                value: self.density.initial_stiffness(),
-                lower: f64::MIN_POSITIVE,
-                upper: f64::MAX,
-            });
-        }
+        within(
+            &SERIES_STIFFNESS,
+            SERIES_STIFFNESS.name,
+            self.series_stiffness,
+        )?;
+        within(
+            &INITIAL_STIFFNESS,
+            INITIAL_STIFFNESS.name,
+            self.density.initial_stiffness(),
+        )?;
         for acting in &self.effects {
             let name = acting.effect.name();
             let glossary = acting.effect.parameters();
@@ -113,11 +116,13 @@ impl Joint {
         let samples = time.iter().zip(input).enumerate();
         samples
             .map(|(sample, (&time, &input))| {
-                simulation.step(time, input).map_err(|reason| JointError::AtSample {
-                    time,
-                    sample,
-                    reason: Box::new(reason),
-                })
+                simulation
+                    .step(time, input)
+                    .map_err(|reason| JointError::AtSample {
+                        time,
+                        sample,
+                        reason: Box::new(reason),
+                    })
             })
             .collect()
     }
@@ -144,4 +149,14 @@ pub const SERIES_STIFFNESS: Parameter = Parameter {
     upper: f64::INFINITY,
     vanishes_at: Some(f64::INFINITY),
     meaning: "Stiffness of the spring in series with the Iwan network; infinite where rigid.",
+};
+
+const INITIAL_STIFFNESS: Parameter = Parameter {
+    name: "initial stiffness of the density",
+    symbol: "K_T",
+    unit: "N/m",
+    lower: f64::MIN_POSITIVE,
+    upper: f64::MAX,
+    vanishes_at: None,
+    meaning: "Stiffness of the network before any slip.",
 };

@@ -37,7 +37,12 @@ impl Network {
     /// A virgin network at u = 0.
     pub fn new(sliders: &Sliders) -> Network {
         let count = sliders.weight.len();
-        let strength = sliders.weight.iter().zip(&sliders.slip_at).map(|(w, d)| w * d).collect();
+        let strength = sliders
+            .weight
+            .iter()
+            .zip(&sliders.slip_at)
+            .map(|(w, d)| w * d)
+            .collect();
         Network {
             weight: sliders.weight.clone(),
             strength,
@@ -62,8 +67,12 @@ impl Network {
 
     /// `Σ f_j²/(2 w_j) + S_∞ u²/2` \[J\].
     pub fn stored_energy(&self) -> f64 {
-        let sliders: f64 =
-            self.force.iter().zip(&self.weight).map(|(f, w)| 0.5 * f * f / w).sum();
+        let sliders: f64 = self
+            .force
+            .iter()
+            .zip(&self.weight)
+            .map(|(f, w)| 0.5 * f * f / w)
+            .sum();
         sliders + 0.5 * self.elastic * self.slip * self.slip
     }
 
@@ -73,19 +82,28 @@ impl Network {
         if self.elastic > 0.0 {
             return f64::INFINITY;
         }
-        let share = if positive { self.limit.positive } else { self.limit.negative };
+        let share = if positive {
+            self.limit.positive
+        } else {
+            self.limit.negative
+        };
         self.strength.iter().sum::<f64>() * share
     }
 
     /// Opens a step under `limit`: sliders above it let go at held u. Undone by the next `begin`.
     pub fn begin(&mut self, limit: SlipLimit) {
         // A limit below zero, or none at all, is no friction.
-        let limit =
-            SlipLimit { positive: limit.positive.max(0.0), negative: limit.negative.max(0.0) };
+        let limit = SlipLimit {
+            positive: limit.positive.max(0.0),
+            negative: limit.negative.max(0.0),
+        };
         self.limit = limit;
         self.let_go = 0.0;
         for j in 0..self.force.len() {
-            let (low, high) = (-self.strength[j] * limit.negative, self.strength[j] * limit.positive);
+            let (low, high) = (
+                -self.strength[j] * limit.negative,
+                self.strength[j] * limit.positive,
+            );
             let held = self.force[j];
             let left = held.max(low).min(high);
             self.relaxed[j] = left;
@@ -99,10 +117,17 @@ impl Network {
         let mut trial = Trial::default();
         for ((start, weight), strength) in self.relaxed.iter().zip(&self.weight).zip(&self.strength)
         {
-            let (low, high) = (-strength * self.limit.negative, strength * self.limit.positive);
+            let (low, high) = (
+                -strength * self.limit.negative,
+                strength * self.limit.positive,
+            );
             let stuck = start + weight * increment;
             let force = stuck.max(low).min(high);
-            let sticks = if rising { stuck >= low && stuck < high } else { stuck > low && stuck <= high };
+            let sticks = if rising {
+                stuck >= low && stuck < high
+            } else {
+                stuck > low && stuck <= high
+            };
             trial.force += force;
             trial.gross += force.abs();
             trial.stiffness += if sticks { *weight } else { 0.0 };
@@ -120,7 +145,10 @@ impl Network {
         let mut dissipated = self.let_go;
         for j in 0..self.force.len() {
             let strength = self.strength[j];
-            let (low, high) = (-strength * self.limit.negative, strength * self.limit.positive);
+            let (low, high) = (
+                -strength * self.limit.negative,
+                strength * self.limit.positive,
+            );
             let stuck = self.relaxed[j] + self.weight[j] * increment;
             let force = stuck.max(low).min(high);
             dissipated += force * ((stuck - force) / self.weight[j]);
@@ -145,7 +173,9 @@ impl Network {
 
     /// Puts back what [`Network::save`] appended; `state` has [`Network::state_length`] numbers.
     pub fn restore(&mut self, state: &[f64]) {
-        let Some((slip, force)) = state.split_first() else { return };
+        let Some((slip, force)) = state.split_first() else {
+            return;
+        };
         self.slip = *slip;
         self.force.copy_from_slice(force);
         self.relaxed.copy_from_slice(force);

@@ -24,7 +24,10 @@ impl From<&Sliders> for Plays {
         for j in (0..sliders.weight.len()).rev() {
             left[j] = left[j + 1] + sliders.weight[j];
         }
-        let mut plays = Plays { compliance: 1.0 / left[0], ..Plays::default() };
+        let mut plays = Plays {
+            compliance: 1.0 / left[0],
+            ..Plays::default()
+        };
         let (mut force, mut reached) = (0.0, 0.0);
         for (j, (weight, slip_at)) in sliders.weight.iter().zip(&sliders.slip_at).enumerate() {
             force += left[j] * (slip_at - reached);
@@ -59,7 +62,11 @@ impl Plays {
             compliance += softening;
             let left = 1.0 / compliance;
             slip_at.push(reached);
-            weight.push(if left > 0.0 { softening * left * stiffness } else { stiffness });
+            weight.push(if left > 0.0 {
+                softening * left * stiffness
+            } else {
+                stiffness
+            });
             stiffness = left;
         }
         Sliders::new(weight, slip_at, stiffness)
@@ -79,8 +86,12 @@ impl Plays {
             admit("play weight", *weight, 0.0)?;
             admit("play threshold", *threshold, 0.0)?;
         }
-        let mut plays: Vec<(f64, f64)> =
-            self.threshold.iter().copied().zip(self.weight.iter().copied()).collect();
+        let mut plays: Vec<(f64, f64)> = self
+            .threshold
+            .iter()
+            .copied()
+            .zip(self.weight.iter().copied())
+            .collect();
         plays.retain(|(_, weight)| *weight > 0.0);
         plays.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut merged: Vec<(f64, f64)> = Vec::with_capacity(plays.len());
@@ -99,7 +110,12 @@ fn admit(name: &str, value: f64, lower: f64) -> Result<(), JointError> {
     if value >= lower {
         return Ok(());
     }
-    Err(JointError::OutOfRange { name: name.into(), value, lower, upper: f64::INFINITY })
+    Err(JointError::OutOfRange {
+        name: name.into(),
+        value,
+        lower,
+        upper: f64::INFINITY,
+    })
 }
 
 /// Plays in motion: `P_r[F]: p ← min(max(p, F − r), F + r)`.
@@ -118,15 +134,23 @@ impl PlayNetwork {
     /// A virgin network.
     pub fn new(plays: Plays) -> PlayNetwork {
         let position = vec![0.0; plays.weight.len()];
-        PlayNetwork { plays, position, force: 0.0, dissipation: 0.0 }
+        PlayNetwork {
+            plays,
+            position,
+            force: 0.0,
+            dissipation: 0.0,
+        }
     }
 
     /// Goes to `force` \[N\] in one monotone leg; returns u \[m\], infinite beyond full slip.
     pub fn drive_force(&mut self, force: f64) -> f64 {
         self.force = force;
         let mut slip = self.plays.compliance * force;
-        for ((position, threshold), weight) in
-            self.position.iter_mut().zip(&self.plays.threshold).zip(&self.plays.weight)
+        for ((position, threshold), weight) in self
+            .position
+            .iter_mut()
+            .zip(&self.plays.threshold)
+            .zip(&self.plays.weight)
         {
             let moved = position.max(force - threshold).min(force + threshold);
             // A play at rest at zero adds nothing, even where its weight is infinite.
@@ -149,7 +173,10 @@ impl PlayNetwork {
     /// Energy stored \[J\].
     pub fn stored_energy(&self) -> f64 {
         let plays = self.position.iter().zip(&self.plays.weight);
-        let kept: f64 = plays.filter(|(p, _)| **p != 0.0).map(|(p, c)| 0.5 * c * p * p).sum();
+        let kept: f64 = plays
+            .filter(|(p, _)| **p != 0.0)
+            .map(|(p, c)| 0.5 * c * p * p)
+            .sum();
         kept + 0.5 * self.plays.compliance * self.force * self.force
     }
 }

@@ -189,7 +189,11 @@ impl Simulation {
                 return Err(JointError::NotFinite { time, value });
             }
         }
-        let step = if self.started { time - self.output.time } else { 0.0 };
+        let step = if self.started {
+            time - self.output.time
+        } else {
+            0.0
+        };
         if step < 0.0 {
             let from = self.output.time;
             return Err(JointError::TimeRunsBack { from, to: time });
@@ -199,7 +203,9 @@ impl Simulation {
         }
         let before = self.output.dissipation;
         let mut output = match &mut self.response {
-            Response::Network(exact) => network_step(exact, self.drive, self.series_stiffness, input)?,
+            Response::Network(exact) => {
+                network_step(exact, self.drive, self.series_stiffness, input)?
+            }
             Response::BehindSpring(exact) => {
                 exact.drive_slip(input);
                 Output {
@@ -227,7 +233,11 @@ impl Simulation {
         output.tangent_stiffness = self.tangent_stiffness();
         // A jump takes no time: its loss has no rate.
         let rate = (output.dissipation - before) / step;
-        output.dissipation_rate = if step > 0.0 && rate.is_finite() { rate } else { 0.0 };
+        output.dissipation_rate = if step > 0.0 && rate.is_finite() {
+            rate
+        } else {
+            0.0
+        };
         self.started = true;
         self.output = output;
         Ok(output)
@@ -242,7 +252,14 @@ impl Simulation {
     pub fn state(&self) -> Vec<f64> {
         let o = &self.output;
         let started = if self.started { 1.0 } else { 0.0 };
-        let mut state = vec![FORMAT, self.fingerprint, started, o.time, o.force, o.displacement];
+        let mut state = vec![
+            FORMAT,
+            self.fingerprint,
+            started,
+            o.time,
+            o.force,
+            o.displacement,
+        ];
         state.extend([o.slip_displacement, o.dissipation, o.dissipation_rate]);
         state.extend([o.stored_energy, o.tangent_stiffness]);
         match &self.response {
@@ -262,16 +279,31 @@ impl Simulation {
         let (head, rest) = state
             .split_at_checked(HEAD)
             .ok_or_else(|| foreign(format!("it has only {} numbers", state.len())))?;
-        let &[format, print, started, time, force, displacement, slip, loss, rate, stored, tangent] =
-            head
+        let &[
+            format,
+            print,
+            started,
+            time,
+            force,
+            displacement,
+            slip,
+            loss,
+            rate,
+            stored,
+            tangent,
+        ] = head
         else {
             return Err(foreign(format!("it has only {} numbers", state.len())));
         };
         if format != FORMAT {
-            return Err(foreign(format!("its version is {format}, this one reads {FORMAT}")));
+            return Err(foreign(format!(
+                "its version is {format}, this one reads {FORMAT}"
+            )));
         }
         if print != self.fingerprint {
-            return Err(foreign("it was saved from other parameters or another drive".into()));
+            return Err(foreign(
+                "it was saved from other parameters or another drive".into(),
+            ));
         }
         match &mut self.response {
             Response::Network(exact) => exact.restore(rest)?,
@@ -338,11 +370,14 @@ pub(super) fn behind(network: f64, series: f64) -> f64 {
 /// False where every parameter that has a vanishing value stands at it.
 fn acts(acting: &Acting) -> bool {
     let glossary = acting.effect.parameters();
-    let mut vanishing = glossary.iter().zip(&acting.values).filter_map(|(parameter, value)| {
-        parameter.vanishes_at.map(|at| *value == at)
-    });
+    let mut vanishing = glossary
+        .iter()
+        .zip(&acting.values)
+        .filter_map(|(parameter, value)| parameter.vanishes_at.map(|at| *value == at));
     // A law without a vanishing value always acts.
-    vanishing.next().is_none_or(|first| !(first && vanishing.all(|gone| gone)))
+    vanishing
+        .next()
+        .is_none_or(|first| !(first && vanishing.all(|gone| gone)))
 }
 
 fn sliders_of(density: &Density) -> Sliders {

@@ -24,7 +24,10 @@ impl Laws {
     pub fn new(effects: &[Acting]) -> Laws {
         let mut laws = Vec::new();
         let mut length = 0;
-        for acting in effects.iter().filter(|a| !a.effect.place().is_measurement()) {
+        for acting in effects
+            .iter()
+            .filter(|a| !a.effect.place().is_measurement())
+        {
             let end = length + acting.effect.memory();
             laws.push(Law {
                 acting: acting.clone(),

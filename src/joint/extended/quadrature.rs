@@ -15,7 +15,13 @@ pub(super) fn integral(from: f64, to: f64, law: impl Fn(f64) -> f64) -> f64 {
         return left * (to - from); // a rising law between equal values is constant
     }
     let middle = law(0.5 * (from + to));
-    let piece = Piece { from, to, left, middle, right };
+    let piece = Piece {
+        from,
+        to,
+        left,
+        middle,
+        right,
+    };
     let tolerance = ACCURACY * left.abs().max(right.abs()) * (to - from).abs();
     piece.refined(&law, tolerance, DEPTH)
 }

@@ -51,7 +51,11 @@ pub(super) fn rising_root(
         if here.value.abs() < least {
             (best, least) = (point, here.value.abs());
         }
-        if here.value < 0.0 { low = point } else { high = point }
+        if here.value < 0.0 {
+            low = point
+        } else {
+            high = point
+        }
         let newton = point - here.value / here.slope;
         if newton == point {
             return Ok(point);
@@ -72,7 +76,11 @@ pub(super) fn rising_root(
                 wanted
             } else {
                 reach *= GROWTH;
-                let least_step = if wanted.is_finite() { wanted.abs() } else { 0.0 };
+                let least_step = if wanted.is_finite() {
+                    wanted.abs()
+                } else {
+                    0.0
+                };
                 reach.max(least_step).copysign(-here.value)
             };
             if (point + step - start).abs() > farthest {
@@ -89,14 +97,25 @@ mod tests {
     use super::*;
 
     fn line_with_kink(x: f64) -> Excess {
-        let (value, slope) = if x < 1.0 { (x, 1.0) } else { (1.0 + 1e-9 * (x - 1.0), 1e-9) };
-        Excess { value: value - 1.5, slope, noise: 1e-16 }
+        let (value, slope) = if x < 1.0 {
+            (x, 1.0)
+        } else {
+            (1.0 + 1e-9 * (x - 1.0), 1e-9)
+        };
+        Excess {
+            value: value - 1.5,
+            slope,
+            noise: 1e-16,
+        }
     }
 
     #[test]
     fn crosses_a_kink_into_a_near_plateau() {
         let root = rising_root(0.0, 1.0, 1e300, line_with_kink);
-        assert!(root.is_ok_and(|x| (x - 500_000_001.0).abs() < 1e-6 * x), "{root:?}");
+        assert!(
+            root.is_ok_and(|x| (x - 500_000_001.0).abs() < 1e-6 * x),
+            "{root:?}"
+        );
     }
 
     #[test]
@@ -104,7 +123,11 @@ mod tests {
         let root = rising_root(0.0, 1.0, 1e12, |x| {
             let inside = x.abs() < 1.0;
             let slope = if inside { 1.0 } else { 0.0 };
-            Excess { value: x.clamp(-1.0, 1.0) - 2.0, slope, noise: 1e-16 }
+            Excess {
+                value: x.clamp(-1.0, 1.0) - 2.0,
+                slope,
+                noise: 1e-16,
+            }
         });
         assert_eq!(root, Err(NoRoot::OutOfReach));
     }
@@ -117,13 +140,19 @@ mod tests {
             slope: 1.0,
             noise: 1e-16,
         });
-        assert!(root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON), "{root:?}");
+        assert!(
+            root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON),
+            "{root:?}"
+        );
     }
 
     #[test]
     fn no_number_is_said_so() {
-        let root =
-            rising_root(0.0, 1.0, 1.0, |_| Excess { value: f64::NAN, slope: 1.0, noise: 0.0 });
+        let root = rising_root(0.0, 1.0, 1.0, |_| Excess {
+            value: f64::NAN,
+            slope: 1.0,
+            noise: 0.0,
+        });
         assert_eq!(root, Err(NoRoot::NotANumber));
     }
 }
