@@ -10,3 +10,4 @@ pub mod diagnose;
 pub mod joint;
 #[cfg(feature = "tool")]
 pub mod record;
+pub mod saved;
