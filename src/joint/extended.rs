@@ -1,5 +1,6 @@
 //! The joint with effects in any of its places: one rising scalar equation per step.
 
+mod cells;
 mod laws;
 mod ledger;
 mod quadrature;
@@ -9,6 +10,7 @@ use super::density::Sliders;
 use super::effect::{Acting, Response, Situation};
 use super::network::Network;
 use super::simulation::{Drive, JointError};
+pub(super) use cells::fine_cells;
 use laws::Laws;
 use ledger::{Ledger, Leg};
 use root::{Excess, NoRoot, rising_root};
