@@ -7,7 +7,11 @@
 pub mod causes;
 #[cfg(feature = "tool")]
 pub mod diagnose;
+#[cfg(feature = "tool")]
+pub mod identify;
 pub mod joint;
+#[cfg(feature = "tool")]
+pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
 pub mod saved;
