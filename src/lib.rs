@@ -14,3 +14,4 @@ pub mod joint;
 pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
+pub mod saved;
