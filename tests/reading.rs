@@ -1,6 +1,6 @@
 //! Files as laboratories write them, and what is read from them.
 
-use iwan::read::{self, Options, ReadError};
+use iwan::read::{self, Options, Quantity, ReadError};
 use iwan::record::{AmplitudeTable, Measurement, Record};
 use std::path::{Path, PathBuf};
 
@@ -465,24 +465,34 @@ fn the_hash_is_that_of_the_bytes() {
 
 #[test]
 fn a_load_has_one_drive_or_both() {
-    let one = read::load_table(
-        &written("load.csv", b"t [s],F [kN]\n0,1\n1,2\n"),
-        &Options::default(),
-    )
-    .expect("a good load");
+    let load = |name: &str, content: &str| {
+        read::load_table(&written(name, content.as_bytes()), &Options::default())
+    };
+    let one = load("load.csv", "t [s],F [kN]\n0,1\n1,2\n").expect("a good load");
+    assert_eq!(one.time, [0.0, 1.0]);
     assert_eq!(one.force, Some(vec![1000.0, 2000.0]));
-    assert_eq!((one.displacement, one.lines), (None, vec![2, 3]));
-    let both = read::load_table(
-        &written("both.csv", b"t [s],u [mm],F [kN]\n#\n0,1,1\n1,2,2\n"),
-        &Options::default(),
-    )
-    .expect("a good load");
-    assert!(both.force.is_some() && both.displacement.is_some());
-    assert_eq!(both.lines, [3, 4]);
-    let neither = read::load_table(
-        &written("neither.csv", b"t [s],v\n0,1\n"),
-        &Options::default(),
+    assert_eq!(one.displacement, None);
+    let missing = one.missing(Quantity::Displacement).to_string();
+    assert!(
+        missing.contains("no column displacement among 1 `t [s]`, 2 `F [kN]`"),
+        "{missing}"
     );
+    let both = load("both.csv", "u [mm],F [kN]\n#\n0,1\n1,2\n").expect("a good load");
+    assert!(both.force.is_some() && both.displacement.is_some());
+    assert_eq!(both.time, [0.0, 1.0]);
+    assert!(
+        both.notes
+            .iter()
+            .any(|note| note.contains("no time column")),
+        "{:?}",
+        both.notes
+    );
+    let spot = both.spot(Quantity::Force, 1).expect("a place").to_string();
+    assert!(
+        spot.ends_with("both.csv, line 4, column 2 `F [kN]`"),
+        "{spot}"
+    );
+    let neither = load("neither.csv", "t [s],v\n0,1\n");
     assert!(
         matches!(neither, Err(ReadError::MissingColumn { .. })),
         "{neither:?}"
