@@ -95,6 +95,7 @@ fn status(error: &anyhow::Error) -> u8 {
         cause.is::<BadInput>()
             || cause.is::<crate::read::ReadError>()
             || cause.is::<crate::joint::JointError>()
+            || cause.is::<crate::saved::SavedError>()
     };
     if error.chain().any(is_bad_input) {
         BAD_INPUT

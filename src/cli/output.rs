@@ -43,6 +43,38 @@ pub fn admit(path: &Path, inputs: &[&Path]) -> Result<(), BadInput> {
     }
 }
 
+/// Refuses, before any work is done, a folder that could not be made or written into.
+///
+/// # Errors
+/// [`BadInput`] naming the path and the way out.
+pub fn admit_folder(path: &Path) -> Result<(), BadInput> {
+    let shown = path.display();
+    if path.exists() && !path.is_dir() {
+        return Err(BadInput(format!("{shown}: this is a file; name a folder to write into")));
+    }
+    let above = folder_of(path);
+    if !path.is_dir() && !above.is_dir() {
+        let above = above.display();
+        return Err(BadInput(format!(
+            "{shown}: there is no folder `{above}` to make it in; make that first"
+        )));
+    }
+    Ok(())
+}
+
+/// The folder, made where it is not there: to be called when the results are ready.
+///
+/// # Errors
+/// [`BadInput`] as [`admit_folder`] or in the system's words.
+pub fn make_folder(path: &Path) -> Result<(), BadInput> {
+    admit_folder(path)?;
+    if path.is_dir() {
+        return Ok(());
+    }
+    fs::create_dir(path)
+        .map_err(|error| BadInput(format!("{}: cannot make this folder: {error}", path.display())))
+}
+
 /// Writes a file by `fill`. Until all of it is on the disk a file of that name stays as it was;
 /// on an error nothing is left. `-` is the standard output; a device or pipe is written to as it
 /// is.
