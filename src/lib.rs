@@ -16,3 +16,4 @@ pub mod joint;
 pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
+pub mod saved;
