@@ -5,7 +5,11 @@ use std::process::Command;
 
 fn causes(arguments: &[&str]) -> String {
     let binary = env!("CARGO_BIN_EXE_iwan");
-    let output = Command::new(binary).arg("causes").args(arguments).output().expect("it runs");
+    let output = Command::new(binary)
+        .arg("causes")
+        .args(arguments)
+        .output()
+        .expect("it runs");
     assert_eq!(output.status.code(), Some(0), "{arguments:?}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
@@ -16,20 +20,39 @@ fn every_cause_has_a_line_and_a_page() {
     let list = causes(&[]);
     assert_eq!(list.lines().count(), CATALOGUE.len());
     for (cause, line) in CATALOGUE.iter().zip(list.lines()) {
-        let kind = if cause.place().is_measurement() { "measurement" } else { "joint" };
+        let kind = if cause.place().is_measurement() {
+            "measurement"
+        } else {
+            "joint"
+        };
         let mut words = line.split_whitespace();
-        assert_eq!((words.next(), words.next()), (Some(cause.name()), Some(kind)));
+        assert_eq!(
+            (words.next(), words.next()),
+            (Some(cause.name()), Some(kind))
+        );
         let page = causes(&[cause.name()]);
         let unwrapped = page.split_whitespace().collect::<Vec<_>>().join(" ");
         let text = cause.page();
-        for part in [text.happens, text.sign, text.separated_by, text.formula, text.source] {
+        for part in [
+            text.happens,
+            text.sign,
+            text.separated_by,
+            text.formula,
+            text.source,
+        ] {
             let part = part.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(unwrapped.contains(&part), "{}: {part}", cause.name());
         }
         for parameter in cause.parameters() {
-            assert!(page.contains(parameter.name) && page.contains(parameter.unit), "{page}");
+            assert!(
+                page.contains(parameter.name) && page.contains(parameter.unit),
+                "{page}"
+            );
         }
-        assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+        assert!(
+            page.lines().all(|line| line.chars().count() <= 100),
+            "{page}"
+        );
     }
 }
 

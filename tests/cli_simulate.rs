@@ -40,11 +40,16 @@ fn rows(csv: &str) -> Vec<[f64; 5]> {
     assert_eq!(lines.next(), Some(header));
     let number = |cell: &str| cell.parse::<f64>().expect("a number");
     let row = |line: &str| line.split(',').map(number).collect::<Vec<_>>();
-    lines.map(|line| row(line).try_into().expect("five columns")).collect()
+    lines
+        .map(|line| row(line).try_into().expect("five columns"))
+        .collect()
 }
 
 fn assert_close(found: f64, expected: f64) {
-    assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found} for {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs(),
+        "{found} for {expected}"
+    );
 }
 
 #[test]
@@ -80,19 +85,39 @@ fn the_answer_driven_back_in_displacement_gives_the_force() {
     simulate(&folder, &["joint.json", "load.csv", "-o", "there.csv"]);
     // the result is itself a record, and a load for either drive
     simulate(&folder, &["joint.json", "there.csv", "-o", "again.csv"]);
-    let displaced = ["joint.json", "there.csv", "-o", "back.csv", "--drive", "displacement"];
+    let displaced = [
+        "joint.json",
+        "there.csv",
+        "-o",
+        "back.csv",
+        "--drive",
+        "displacement",
+    ];
     simulate(&folder, &displaced);
     let text = |name: &str| std::fs::read_to_string(folder.join(name)).expect("the result");
     let (there, back) = (rows(&text("there.csv")), rows(&text("back.csv")));
-    assert_eq!(text("there.csv"), text("again.csv"), "numbers survive writing and reading");
+    assert_eq!(
+        text("there.csv"),
+        text("again.csv"),
+        "numbers survive writing and reading"
+    );
     assert_eq!(there.len(), 200);
-    assert!(there[199][3] > 1e-3, "the load is to slip: {}", there[199][3]);
+    assert!(
+        there[199][3] > 1e-3,
+        "the load is to slip: {}",
+        there[199][3]
+    );
     for (there, back) in there.iter().zip(&back) {
         assert!((there[1] - back[1]).abs() < 1e-9, "{there:?} {back:?}");
-        assert!((there[3] - back[3]).abs() < 1e-12 * there[3].max(1.0), "{there:?} {back:?}");
+        assert!(
+            (there[3] - back[3]).abs() < 1e-12 * there[3].max(1.0),
+            "{there:?} {back:?}"
+        );
     }
     let loaded = read::file(&folder.join("there.csv"), &Options::default()).expect("a record");
-    let Measurement::History(record) = loaded.measurement else { panic!("no history") };
+    let Measurement::History(record) = loaded.measurement else {
+        panic!("no history")
+    };
     assert!(there.iter().map(|row| row[2]).eq(record.displacement));
 }
 
@@ -112,5 +137,9 @@ fn the_result_goes_to_the_screen_or_replaces_a_file() {
     let names = std::fs::read_dir(&folder).expect("the folder").flatten();
     let mut names: Vec<_> = names.map(|entry| entry.file_name()).collect();
     names.sort();
-    assert_eq!(names, ["joint.json", "load.csv", "out.csv"], "nothing else is left");
+    assert_eq!(
+        names,
+        ["joint.json", "load.csv", "out.csv"],
+        "nothing else is left"
+    );
 }

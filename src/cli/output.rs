@@ -50,7 +50,9 @@ pub fn admit(path: &Path, inputs: &[&Path]) -> Result<(), BadInput> {
 pub fn admit_folder(path: &Path) -> Result<(), BadInput> {
     let shown = path.display();
     if path.exists() && !path.is_dir() {
-        return Err(BadInput(format!("{shown}: this is a file; name a folder to write into")));
+        return Err(BadInput(format!(
+            "{shown}: this is a file; name a folder to write into"
+        )));
     }
     let above = folder_of(path);
     if !path.is_dir() && !above.is_dir() {
@@ -71,8 +73,12 @@ pub fn make_folder(path: &Path) -> Result<(), BadInput> {
     if path.is_dir() {
         return Ok(());
     }
-    fs::create_dir(path)
-        .map_err(|error| BadInput(format!("{}: cannot make this folder: {error}", path.display())))
+    fs::create_dir(path).map_err(|error| {
+        BadInput(format!(
+            "{}: cannot make this folder: {error}",
+            path.display()
+        ))
+    })
 }
 
 /// Writes a file by `fill`. Until all of it is on the disk a file of that name stays as it was;
