@@ -6,6 +6,8 @@
 
 pub mod causes;
 #[cfg(feature = "tool")]
+pub mod cli;
+#[cfg(feature = "tool")]
 pub mod diagnose;
 #[cfg(feature = "tool")]
 pub mod identify;
