@@ -10,3 +10,5 @@ pub mod diagnose;
 pub mod joint;
 #[cfg(feature = "tool")]
 pub mod record;
+#[cfg(feature = "tool")]
+pub mod report;
