@@ -1,7 +1,7 @@
 //! What stands on the page, as values for its template.
 
-use minijinja::value::Value;
 use minijinja::context;
+use minijinja::value::Value;
 
 use super::CausePage;
 use super::plots::Figure;
@@ -140,7 +140,11 @@ pub(super) fn candidates(findings: &Findings) -> Vec<Value> {
     let mut ranked: Vec<&Candidate> = findings.candidates.iter().collect();
     // Candidates without a score come last.
     let score = |candidate: &Candidate| {
-        if candidate.evidence.is_nan() { f64::NEG_INFINITY } else { candidate.evidence }
+        if candidate.evidence.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            candidate.evidence
+        }
     };
     ranked.sort_by(|a, b| score(b).total_cmp(&score(a)));
     let named = |candidate: &Candidate| {

@@ -128,21 +128,21 @@ pub(super) fn number(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let decade = value.abs().log10().floor() as i32;
-    if (-3..=5).contains(&decade) {
-        let decimals = (digits - 1 - decade).max(0) as usize;
-        return format!("{value:.decimals$}");
-    }
+    // Written in powers of ten first: rounding may reach the next decade.
     let written = format!("{value:.*e}", (digits - 1).max(0) as usize);
-    match written.split_once('e') {
-        Some((mantissa, power)) => {
-            let raised: String = power
-                .chars()
-                .map(|c| if c == '-' { '⁻' } else { superscript(c) })
-                .collect();
-            format!("{mantissa}·10{raised}")
+    let Some((mantissa, power)) = written.split_once('e') else {
+        return written;
+    };
+    match power.parse::<i32>() {
+        Ok(decade) if (-3..=5).contains(&decade) => {
+            let decimals = (digits - 1 - decade).max(0) as usize;
+            format!("{value:.decimals$}")
         }
-        None => written,
+        _ => {
+            let raised = power.chars();
+            let raised = raised.map(|c| if c == '-' { '⁻' } else { superscript(c) });
+            format!("{mantissa}·10{}", raised.collect::<String>())
+        }
     }
 }
 
@@ -195,11 +195,11 @@ pub(super) fn estimate(estimate: &Estimate) -> Shown {
     let scale = Scale::of(known, &estimate.unit);
     let (below, above) = (value - lower, upper - value);
     let spread = below.min(above);
-    if !(spread.is_finite() && below >= 0.0 && above >= 0.0 && upper > lower) {
+    if !(spread >= 0.0 && below.max(above) > 0.0 && (upper - lower).is_finite()) {
         let interval = [lower, upper].map(|bound| number(scale.shown(bound), 3));
         return Shown {
             value: quantity(value, &estimate.unit),
-            error: "error not symmetric: see interval".to_owned(),
+            error: "see the interval".to_owned(),
             interval: scale.attach(&interval.join(" … ")),
         };
     }
@@ -297,14 +297,15 @@ mod tests {
 
     #[test]
     fn missing_and_broken_intervals() {
-        assert_eq!(
-            estimated(1.0, "m", None).error,
-            "not bounded by the data"
-        );
+        assert_eq!(estimated(1.0, "m", None).error, "not bounded by the data");
         let open = estimated(1.0, "N", Some((0.5, f64::INFINITY)));
-        assert_eq!((open.value.as_str(), open.interval.as_str()), ("1.00 N", "0.500 … ∞ N"));
+        assert_eq!(
+            (open.value.as_str(), open.interval.as_str()),
+            ("1.00 N", "0.500 … ∞ N")
+        );
         let nan = estimated(f64::NAN, "N", Some((1.0, 2.0)));
         assert_eq!(nan.value, "not determined");
+        assert_eq!(open.error, "see the interval");
         let point = estimated(2.0, "N", Some((2.0, 2.0)));
         assert_eq!(point.value, "2.00 N");
         let about_zero = estimated(0.0, "N", Some((-1.0, 1.0)));

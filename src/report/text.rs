@@ -16,10 +16,7 @@ const LABEL: usize = 12;
 ///
 /// The first line is the verdict, or that the prediction of unseen data got worse.
 pub fn render(findings: &Findings) -> String {
-    let mut sections = vec![
-        verdict(findings),
-        wrong(findings),
-    ];
+    let mut sections = vec![verdict(findings), wrong(findings)];
     sections.extend(causes(findings));
     sections.extend([
         gain(findings),
@@ -164,7 +161,13 @@ fn left(findings: &Findings) -> Section {
         quantity(findings.noise.rms, &findings.noise.unit),
         findings.noise.method
     ));
-    lines.extend(findings.unexplained.places.iter().flat_map(|place| bullet(place)));
+    lines.extend(
+        findings
+            .unexplained
+            .places
+            .iter()
+            .flat_map(|place| bullet(place)),
+    );
     Section::new("Left", lines)
 }
 
@@ -196,12 +199,18 @@ fn table(estimates: &[Estimate]) -> Vec<String> {
         .iter()
         .map(|row| (row.name.as_str(), estimate(row)))
         .collect();
-    let name = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    let value = rows.iter().map(|(_, shown)| shown.value.chars().count()).max().unwrap_or(0);
+    let name = rows
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    let value = rows
+        .iter()
+        .map(|(_, shown)| shown.value.chars().count())
+        .max()
+        .unwrap_or(0);
     rows.iter()
-        .map(|(label, shown)| {
-            format!("{label:name$}  {:>value$}  {}", shown.value, shown.error)
-        })
+        .map(|(label, shown)| format!("{label:name$}  {:>value$}  {}", shown.value, shown.error))
         .collect()
 }
 

@@ -59,10 +59,14 @@ pub(super) fn verdict_sentence(findings: &Findings) -> String {
         ),
         (Verdict::Explained, _) => format!("With {causes} only noise is left."),
         (Verdict::PartlyExplained, _) => {
-            format!("{} helps, and structure beyond the noise remains.", capital(&causes))
+            format!(
+                "{} helps, and structure beyond the noise remains.",
+                capital(&causes)
+            )
         }
         (Verdict::Unexplained, true) => {
-            "Structure beyond the noise that no cause of the catalogue predicts out of sample.".into()
+            "Structure beyond the noise that no cause of the catalogue predicts out of sample."
+                .into()
         }
         (Verdict::Unexplained, false) => format!(
             "Structure beyond the noise remains that {causes} does not predict out of sample."
@@ -122,7 +126,11 @@ pub(super) fn miss_sentence(findings: &Findings) -> String {
     let error = findings.baseline.held_out_rms;
     let noise = findings.noise.rms;
     let times = if noise > 0.0 && (error / noise).is_finite() {
-        format!(", {} × the noise of {}", number(error / noise, 2), quantity(noise, &findings.noise.unit))
+        format!(
+            ", {} × the noise of {}",
+            number(error / noise, 2),
+            quantity(noise, &findings.noise.unit)
+        )
     } else {
         String::new()
     };
@@ -172,7 +180,11 @@ pub(super) fn named(cause: &NamedCause) -> String {
     if cause.ambiguous_with.is_empty() {
         return own;
     }
-    let rivals: Vec<String> = cause.ambiguous_with.iter().map(|name| in_words(name)).collect();
+    let rivals: Vec<String> = cause
+        .ambiguous_with
+        .iter()
+        .map(|name| in_words(name))
+        .collect();
     format!("{own} (or {})", rivals.join(" or "))
 }
 
@@ -184,8 +196,9 @@ pub(super) fn in_words(name: &str) -> String {
 /// The first letter raised.
 pub(super) fn capital(text: &str) -> String {
     let mut rest = text.chars();
-    rest.next()
-        .map_or_else(String::new, |first| first.to_uppercase().chain(rest).collect())
+    rest.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(rest).collect()
+    })
 }
 
 /// `a, b and c`.

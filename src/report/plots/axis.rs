@@ -72,16 +72,24 @@ impl Axis {
         let (lower, upper) = (scale.shown(smallest).log10(), scale.shown(largest).log10());
         let room = MARGIN * (upper - lower);
         let decades = lower.floor() as i32..=upper.ceil() as i32;
-        let marks: &[f64] = if upper - lower < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let marks: &[f64] = if upper - lower < 2.5 {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
+        };
         let ticks = decades.flat_map(|decade| {
-            marks.iter().map(move |mark| (mark * 10f64.powi(decade)).log10())
+            marks
+                .iter()
+                .map(move |mark| (mark * 10f64.powi(decade)).log10())
         });
         let (lower, upper) = (lower - room, upper + room);
         Some(Axis {
             title: titled(name, &scale.unit),
             lower,
             upper,
-            ticks: ticks.filter(|tick| (lower..=upper).contains(tick)).collect(),
+            ticks: ticks
+                .filter(|tick| (lower..=upper).contains(tick))
+                .collect(),
             scale,
             decimals: 0,
             logarithmic: true,
@@ -98,7 +106,11 @@ impl Axis {
     /// Where an SI value lies.
     pub(super) fn place(&self, value: f64) -> f64 {
         let shown = self.scale.shown(value);
-        if self.logarithmic { shown.log10() } else { shown }
+        if self.logarithmic {
+            shown.log10()
+        } else {
+            shown
+        }
     }
 
     /// What a tick is called.

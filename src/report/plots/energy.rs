@@ -23,9 +23,15 @@ pub(super) fn draw(
         decimate::extremes(&points, MOST_POINTS)
     };
     let (measured, baseline) = (column(1), column(2));
-    let extended = if extends(findings) { column(3) } else { Vec::new() };
+    let extended = if extends(findings) {
+        column(3)
+    } else {
+        Vec::new()
+    };
     let all = [&measured, &baseline, &extended];
-    let ordinates = all.iter().flat_map(|points| points.iter().map(|point| point.1));
+    let ordinates = all
+        .iter()
+        .flat_map(|points| points.iter().map(|point| point.1));
     let abscissae = (0..curves.cycles.len()).map(|index| index as f64 + 1.0);
     let (Some(x), Some(y)) = (
         Axis::over("cycle", "1", abscissae, 12),
@@ -39,8 +45,14 @@ pub(super) fn draw(
     let svg = on_canvas("energy per cycle", (1060, 260), axes, |chart| {
         let colours = [palette::MEASURED, palette::BASELINE, palette::EXTENDED];
         for (points, colour) in all.into_iter().zip(colours) {
-            let points: Vec<_> = placed(points, axes).filter(|point| point.1.is_finite()).collect();
-            curve(chart, points.iter().copied(), colour.mix(0.6).stroke_width(FINE))?;
+            let points: Vec<_> = placed(points, axes)
+                .filter(|point| point.1.is_finite())
+                .collect();
+            curve(
+                chart,
+                points.iter().copied(),
+                colour.mix(0.6).stroke_width(FINE),
+            )?;
             if !marked {
                 continue;
             }

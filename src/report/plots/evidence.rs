@@ -34,7 +34,14 @@ pub(super) fn draw(findings: &Findings) -> Result<Option<Figure>, ReportError> {
     ranked.truncate(MOST_BARS);
     let values = ranked.iter().map(|candidate| candidate.evidence);
     let Some(axis) = (!ranked.is_empty())
-        .then(|| Axis::over("log evidence against the baseline", "1", values.chain([0.0]), 8))
+        .then(|| {
+            Axis::over(
+                "log evidence against the baseline",
+                "1",
+                values.chain([0.0]),
+                8,
+            )
+        })
         .flatten()
     else {
         return Ok(None);
@@ -75,7 +82,11 @@ fn bars(findings: &Findings, ranked: &[&Candidate], axis: &Axis) -> Result<Strin
             let at = across(*tick);
             area.draw(&PathElement::new(vec![(at, 0), (at, bottom)], grid))?;
             let label = axis.label(*tick);
-            area.draw(&Text::new(label, (at, bottom + fine(5) as i32), centred.clone()))?;
+            area.draw(&Text::new(
+                label,
+                (at, bottom + fine(5) as i32),
+                centred.clone(),
+            ))?;
         }
         let zero = across(0.0);
         let ground = palette::AXIS.stroke_width(FINE);
@@ -88,7 +99,10 @@ fn bars(findings: &Findings, ranked: &[&Candidate], axis: &Axis) -> Result<Strin
             let centre = top + fine(ROW / 2) as i32;
             let end = across(axis.place(candidate.evidence));
             let (from, to) = (zero.min(end), zero.max(end));
-            let corners = [(from, top + fine(4) as i32), (to, top + fine(ROW - 4) as i32)];
+            let corners = [
+                (from, top + fine(4) as i32),
+                (to, top + fine(ROW - 4) as i32),
+            ];
             let colour = colour(findings, &candidate.name);
             area.draw(&Rectangle::new(corners, colour.filled()))?;
             let name = ink().pos(Pos::new(HPos::Right, VPos::Center));
@@ -106,7 +120,11 @@ fn colour(findings: &Findings, name: &str) -> RGBColor {
     let ambiguous = |rival: &String| rival == name;
     if findings.causes.iter().any(|cause| cause.name == name) {
         palette::EXTENDED
-    } else if findings.causes.iter().any(|cause| cause.ambiguous_with.iter().any(ambiguous)) {
+    } else if findings
+        .causes
+        .iter()
+        .any(|cause| cause.ambiguous_with.iter().any(ambiguous))
+    {
         palette::AMBIGUOUS
     } else {
         palette::MEASURED

@@ -15,7 +15,11 @@ pub(super) fn draw(
     curves: &RecordCurves,
 ) -> Result<Option<Figure>, ReportError> {
     let pair = |displacement: &[f64], force: &[f64]| -> Vec<(f64, f64)> {
-        displacement.iter().copied().zip(force.iter().copied()).collect()
+        displacement
+            .iter()
+            .copied()
+            .zip(force.iter().copied())
+            .collect()
     };
     let predicted = |channel: &[f64]| {
         if findings.judged == "force" {
@@ -25,7 +29,11 @@ pub(super) fn draw(
         }
     };
     let mut paths = vec![
-        (pair(&curves.displacement, &curves.force), palette::MEASURED, 2 * FINE + FINE / 2),
+        (
+            pair(&curves.displacement, &curves.force),
+            palette::MEASURED,
+            2 * FINE + FINE / 2,
+        ),
         (predicted(&curves.baseline), palette::BASELINE, FINE),
     ];
     if extends(findings) {

@@ -7,9 +7,9 @@ mod energy;
 mod evidence;
 mod loops;
 mod palette;
+mod residual;
 mod residual_drive;
 mod residual_time;
-mod residual;
 
 use super::ReportError;
 use crate::diagnose::Findings;

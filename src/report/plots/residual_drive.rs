@@ -34,7 +34,12 @@ pub(super) fn draw(
     }
     let all = || clouds.iter().flat_map(|(points, _)| points.iter());
     let (Some(x), Some(y)) = (
-        Axis::over(channels.drive_name, channels.drive_unit, all().map(|point| point.0), 6),
+        Axis::over(
+            channels.drive_name,
+            channels.drive_unit,
+            all().map(|point| point.0),
+            6,
+        ),
         Axis::over(
             &format!("residual {}", findings.judged),
             &findings.unit,
@@ -56,7 +61,12 @@ pub(super) fn draw(
             let [rising, falling] = means(points);
             curve(chart, placed(&rising, axes), line(*colour))?;
             let falling: Vec<_> = placed(&falling, axes).collect();
-            chart.draw_series(DashedLineSeries::new(falling, fine(5), fine(4), line(*colour)))?;
+            chart.draw_series(DashedLineSeries::new(
+                falling,
+                fine(5),
+                fine(4),
+                line(*colour),
+            ))?;
         }
         Ok(())
     })?;
@@ -81,7 +91,10 @@ fn line(colour: RGBColor) -> plotters::style::ShapeStyle {
 
 /// Mean residual per bin of the drive, for rising and for falling drive.
 fn means(points: &[(f64, f64)]) -> [Vec<(f64, f64)>; 2] {
-    let drives = points.iter().map(|point| point.0).filter(|drive| drive.is_finite());
+    let drives = points
+        .iter()
+        .map(|point| point.0)
+        .filter(|drive| drive.is_finite());
     let lower = drives.clone().fold(f64::INFINITY, f64::min);
     let upper = drives.fold(f64::NEG_INFINITY, f64::max);
     let width = (upper - lower) / BINS as f64;

@@ -32,11 +32,24 @@ pub(super) fn draw(
     let all = || before.iter().chain(&after);
     let ordinates = all().map(|point| point.1).chain(band.into_iter().flatten());
     // A record without time is clocked by its sample numbers.
-    let counted = curves.time.iter().enumerate().all(|(index, time)| *time == index as f64);
-    let (clock, clock_unit) = if counted { ("sample", "1") } else { ("time", "s") };
+    let counted = curves
+        .time
+        .iter()
+        .enumerate()
+        .all(|(index, time)| *time == index as f64);
+    let (clock, clock_unit) = if counted {
+        ("sample", "1")
+    } else {
+        ("time", "s")
+    };
     let (Some(x), Some(y)) = (
         Axis::over(clock, clock_unit, all().map(|point| point.0), 10),
-        Axis::over(&format!("residual {}", findings.judged), &findings.unit, ordinates, 5),
+        Axis::over(
+            &format!("residual {}", findings.judged),
+            &findings.unit,
+            ordinates,
+            5,
+        ),
     ) else {
         return Ok(None);
     };
@@ -52,7 +65,11 @@ pub(super) fn draw(
             Rectangle::new(corners, palette::NOISE.mix(0.2).filled())
         }))?;
         for (points, colour) in [(&before, palette::BASELINE), (&after, palette::EXTENDED)] {
-            curve(chart, placed(points, axes), colour.mix(0.85).stroke_width(FINE))?;
+            curve(
+                chart,
+                placed(points, axes),
+                colour.mix(0.85).stroke_width(FINE),
+            )?;
         }
         Ok(())
     })?;
@@ -78,7 +95,11 @@ pub(super) fn draw(
 /// Stretches of time that were held out, joined over gaps of less than `gap`.
 fn blocks(time: &[f64], held_out: &[bool], gap: f64) -> Vec<(f64, f64)> {
     let mut blocks: Vec<(f64, f64)> = Vec::new();
-    for (time, _) in time.iter().zip(held_out).filter(|(time, held)| **held && time.is_finite()) {
+    for (time, _) in time
+        .iter()
+        .zip(held_out)
+        .filter(|(time, held)| **held && time.is_finite())
+    {
         match blocks.last_mut() {
             Some((_, to)) if *time - *to <= gap => *to = *time,
             _ => blocks.push((*time, *time)),
