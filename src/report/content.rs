@@ -8,7 +8,7 @@ use super::plots::Figure;
 use super::quantity::{estimate, number, percent, quantity};
 use super::wording;
 use crate::diagnose::Findings;
-use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause};
+use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause, Verdict};
 
 /// Verdict, warning and the figures that sum the page up.
 pub(super) fn banner(findings: &Findings) -> Value {
@@ -39,18 +39,19 @@ fn tiles(findings: &Findings) -> Vec<Value> {
             format!("ratio {}", wording::ratio(findings)),
         ));
     }
-    tiles.extend([
-        tile(
-            "Noise",
-            quantity(findings.noise.rms, &findings.noise.unit),
-            findings.noise.method.clone(),
-        ),
-        tile(
+    tiles.push(tile(
+        "Noise",
+        quantity(findings.noise.rms, &findings.noise.unit),
+        findings.noise.method.clone(),
+    ));
+    // A clean record has no misfit of which a share could be left.
+    if findings.verdict != Verdict::Clean {
+        tiles.push(tile(
             "Left unexplained",
             percent(findings.unexplained.share),
             "of the explainable misfit".to_owned(),
-        ),
-    ]);
+        ));
+    }
     tiles
 }
 

@@ -84,6 +84,10 @@ fn typeset(unit: &str) -> String {
     if unit == "1" || unit == "-" {
         return String::new();
     }
+    if unit.contains('(') {
+        // A power that is itself a formula, e.g. `N/m^(2+chi)`: left as it is written.
+        return unit.to_owned();
+    }
     let mut shown = String::new();
     let mut in_power = false;
     let mut after_letter = false;
@@ -276,6 +280,8 @@ mod tests {
         assert_eq!(quantity(12.0, "N.s/m"), "12.0 N·s/m");
         assert_eq!(quantity(3e12, "N/m3"), "3000 GN/m³");
         assert_eq!(quantity(1.5e-4, "m2"), "1.50·10⁻⁴ m²");
+        assert_eq!(quantity(0.5, "1/J"), "0.500 1/J");
+        assert_eq!(quantity(2.0, "N/m^(2+chi)"), "2.00 N/m^(2+chi)");
         assert_eq!(quantity(0.25, "1"), "0.250");
         assert_eq!(quantity(0.0, "m"), "0 m");
         assert_eq!(quantity(3e-14, "m"), "0.0300 pm");

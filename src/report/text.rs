@@ -10,7 +10,7 @@ const MOST_LINES: usize = 40;
 /// Columns at most, where words allow.
 const WIDTH: usize = 96;
 /// Columns of the labels at the left.
-const LABEL: usize = 12;
+const LABEL: usize = 15;
 
 /// The findings as plain text of at most 40 lines, ending in a line break.
 ///
@@ -114,7 +114,7 @@ fn verdict(findings: &Findings) -> Section {
 }
 
 fn wrong(findings: &Findings) -> Section {
-    Section::new("Wrong", column(&wording::miss_sentence(findings)))
+    Section::new("What is wrong", column(&wording::miss_sentence(findings)))
 }
 
 fn causes(findings: &Findings) -> Vec<Section> {
@@ -168,7 +168,7 @@ fn left(findings: &Findings) -> Section {
             .iter()
             .flat_map(|place| bullet(place)),
     );
-    Section::new("Left", lines)
+    Section::new("What remains", lines)
 }
 
 fn joint(findings: &Findings) -> Section {

@@ -59,10 +59,7 @@ pub(super) fn verdict_sentence(findings: &Findings) -> String {
         ),
         (Verdict::Explained, _) => format!("With {causes} only noise is left."),
         (Verdict::PartlyExplained, _) => {
-            format!(
-                "{} helps, and structure beyond the noise remains.",
-                capital(&causes)
-            )
+            format!("With {causes} structure beyond the noise remains.")
         }
         (Verdict::Unexplained, true) => {
             "Structure beyond the noise that no cause of the catalogue predicts out of sample."
@@ -168,6 +165,9 @@ pub(super) fn weight_sentence(cause: &NamedCause) -> String {
 
 /// The rest, as a share of what could be explained.
 pub(super) fn rest_sentence(findings: &Findings) -> String {
+    if findings.verdict == Verdict::Clean {
+        return "Nothing beyond the noise.".to_owned();
+    }
     format!(
         "{} of the explainable misfit is left.",
         percent(findings.unexplained.share)

@@ -20,3 +20,19 @@ pub(super) const HELD_OUT: RGBColor = RGBColor(0xF0, 0xE4, 0x42);
 pub(super) const AXIS: RGBColor = RGBColor(0x8C, 0x93, 0x9E);
 /// Text; the style sheet gives it the page's ink.
 pub(super) const INK: RGBColor = RGBColor(0x33, 0x3A, 0x45);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_style_sheet_knows_the_colours_it_lightens() {
+        let style = include_str!("../report.css");
+        for RGBColor(red, green, blue) in [MEASURED, BASELINE, EXTENDED] {
+            for attribute in ["stroke", "fill"] {
+                let selector = format!(".plot [{attribute}=\"#{red:02X}{green:02X}{blue:02X}\"]");
+                assert!(style.contains(&selector), "{selector}");
+            }
+        }
+    }
+}

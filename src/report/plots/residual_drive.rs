@@ -54,7 +54,7 @@ pub(super) fn draw(
         for (points, colour) in &clouds {
             let dots = decimate::every(points, MOST_DOTS);
             let style = colour.mix(0.3).filled();
-            let dots = placed(&dots, axes).map(|place| Circle::new(place, FINE, style));
+            let dots = placed(&dots, axes).map(|place| Circle::new(place, FINE + FINE / 4, style));
             chart.draw_series(dots.collect::<Vec<_>>())?;
         }
         for (points, colour) in &clouds {
@@ -71,13 +71,13 @@ pub(super) fn draw(
         Ok(())
     })?;
     let mut keys = keys(findings, false);
-    keys.push(("rising", "mean, load rising".to_owned()));
-    keys.push(("falling", "mean, load falling".to_owned()));
+    keys.push(("rising", format!("{} rising", channels.drive_name)));
+    keys.push(("falling", format!("{} falling", channels.drive_name)));
     Ok(Some(Figure {
         title: "Where in the loop".to_owned(),
         caption: format!(
-            "Measured minus predicted {} over {}: dots are samples, lines their means.",
-            findings.judged, channels.drive_name
+            "Residual over {}: dots are samples, lines their means.",
+            channels.drive_name
         ),
         keys,
         svg,
