@@ -170,7 +170,10 @@ fn explained() -> Findings {
 }
 
 fn clean() -> Findings {
-    let found = explained();
+    let mut found = explained();
+    for curves in &mut found.curves {
+        curves.baseline.clone_from(&curves.extended);
+    }
     Findings {
         verdict: Verdict::Clean,
         summary: "Nothing beyond the noise.".to_owned(),
@@ -199,6 +202,7 @@ fn worse() -> Findings {
 fn unexplained() -> Findings {
     let found = clean();
     Findings {
+        curves: explained().curves,
         verdict: Verdict::Unexplained,
         summary: "What is left repeats from cycle to cycle.".to_owned(),
         baseline: explained().baseline,
@@ -563,4 +567,71 @@ fn records_judged_in_force_are_drawn_in_force() {
     kept("report_force.html", &page);
     assert!(page.contains("residual force [N]"));
     assert!(!page.contains("residual displacement"));
+}
+
+/// The values of one attribute in the markup of a page.
+fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
+    let opening = format!(" {name}=\"");
+    let values = page.split(opening.as_str()).skip(1);
+    values.filter_map(|rest| rest.split('"').next()).collect()
+}
+
+#[test]
+fn drawings_are_well_formed_and_small_for_long_records() {
+    let mut found = explained();
+    found.candidates[1].name = "a<b>&\"c".to_owned();
+    found.curves = vec![curves("long", 1000)];
+    let samples = found.curves[0].time.len();
+    let page = drawn(&found);
+    kept("report_long.html", &page);
+    let drawings: Vec<&str> = page.split("<svg").skip(1).collect();
+    assert_eq!(drawings.len(), 5);
+    for drawing in drawings {
+        let end = drawing.find("</svg>").expect("an end") + "</svg>".len();
+        let markup = format!("<svg{}", &drawing[..end]);
+        let mut reader = quick_xml::Reader::from_str(&markup);
+        loop {
+            match reader.read_event() {
+                Ok(quick_xml::events::Event::Eof) => break,
+                Ok(_) => {}
+                Err(error) => panic!("{error} in {markup:.200}"),
+            }
+        }
+    }
+    let longest = attributes(&page, "points").into_iter();
+    let longest = longest
+        .map(|points| points.split_whitespace().count())
+        .max();
+    assert!(
+        longest.is_some_and(|points| (500..=1500).contains(&points)),
+        "{longest:?}"
+    );
+    assert!(
+        page.len() < 1_000_000,
+        "{} bytes for {samples} samples",
+        page.len()
+    );
+}
+
+#[test]
+fn only_what_was_found_is_drawn() {
+    let blue = " stroke=\"#0072B2\"";
+    assert!(drawn(&explained()).contains(blue));
+    assert!(
+        !drawn(&clean()).contains(blue),
+        "a clean record has no extended joint"
+    );
+    let yellow = " fill=\"#F0E442\"";
+    let shaded = |findings: &Findings| drawn(findings).matches(yellow).count();
+    // Two blocks were held out of each of the two records.
+    assert_eq!(shaded(&explained()), 4);
+    let mut fitted = explained();
+    for curves in &mut fitted.curves {
+        curves.held_out.fill(false);
+    }
+    assert_eq!(shaded(&fitted), 0);
+    let mut bare = explained();
+    bare.curves.clear();
+    bare.candidates.clear();
+    assert!(!drawn(&bare).contains("<svg"));
 }

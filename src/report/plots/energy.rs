@@ -51,7 +51,13 @@ pub(super) fn draw(
             curve(
                 chart,
                 points.iter().copied(),
-                colour.mix(0.6).stroke_width(FINE),
+                colour
+                    .mix(0.6)
+                    .stroke_width(if colour == palette::MEASURED {
+                        3 * FINE
+                    } else {
+                        FINE
+                    }),
             )?;
             if !marked {
                 continue;

@@ -2,6 +2,7 @@
 
 mod axis;
 mod canvas;
+mod cycles;
 mod decimate;
 mod energy;
 mod evidence;
