@@ -17,3 +17,5 @@ pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
 pub mod saved;
+#[cfg(feature = "tool")]
+pub mod report;
