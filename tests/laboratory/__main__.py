@@ -9,6 +9,7 @@ from . import noise_free
 from .blind import blind_test
 from .case import draw_case, write_case
 from .effects import CATALOGUE, EFFECTS
+from .scorecard import card
 
 
 def _span(text):
@@ -34,10 +35,12 @@ def main(arguments=None):
     known = commands.add_parser("noise_free", help="records of a known power-law joint")
     known.add_argument("--softening", type=float, default=None, help="of the tangent, at the peak")
     demo = commands.add_parser("demo", help="the example records")
+    board = commands.add_parser("scorecard", help="several blind tests on one card")
+    board.add_argument("tests", nargs="+", help="blind.json files")
     commands.add_parser("effects", help="names of the effects")
     for one in (draw, blind, known):
         one.add_argument("--seed", type=int, default=None, help="from the clock unless given")
-    for one in (draw, blind, known, demo):
+    for one in (draw, blind, known, demo, board):
         one.add_argument("-o", "--output", required=True)
     asked = parser.parse_args(arguments)
     seed = getattr(asked, "seed", None)
@@ -58,6 +61,8 @@ def main(arguments=None):
         print(f"seed {seed}", file=sys.stderr)
     elif asked.command == "demo":
         print(demo_records.make(asked.output))
+    elif asked.command == "scorecard":
+        card(asked.tests, asked.output)
     else:
         for name in EFFECTS:
             print(name, "catalogue" if name in CATALOGUE else "")

@@ -46,8 +46,11 @@ class Thermal(Scaled):
 
     def draw(self, scene, rng):
         self.recovery = scene.duration * 10 ** rng.uniform(-2.0, -0.9)
-        power = max(float(t.dissipated[-1]) / float(t.time[-1]) for t in scene.clean)
-        self.capacity = power * self.recovery
+        hottest = []
+        for trace in scene.clean:  # so that the clean test would just warm to one
+            keep = np.exp(-(trace.time[1] - trace.time[0]) / self.recovery)
+            hottest.append(lfilter([1.0], [1.0, -keep], np.diff(trace.dissipated)).max())
+        self.capacity = float(max(hottest))
 
     def reset(self):
         self.warmth = 0.0
