@@ -7,6 +7,11 @@
 pub mod causes;
 #[cfg(feature = "tool")]
 pub mod diagnose;
+pub mod fmu;
 pub mod joint;
 #[cfg(feature = "tool")]
+pub mod pack;
+#[cfg(feature = "tool")]
 pub mod record;
+pub mod saved;
+pub mod variables;

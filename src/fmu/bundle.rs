@@ -28,7 +28,11 @@ impl Bundle {
             came: came.to_owned(),
         })?;
         let joint = saved::read(&text, &path)?.joint;
-        Ok(Bundle { joint, drive, guid: came.to_owned() })
+        Ok(Bundle {
+            joint,
+            drive,
+            guid: came.to_owned(),
+        })
     }
 }
 

@@ -25,9 +25,15 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     _known_differentials: *const f64,
     _unknown_differentials: *mut f64,
 ) -> Status {
-    let refusal = Refusal::NotOffered { capability: "providesDirectionalDerivative" };
+    let refusal = Refusal::NotOffered {
+        capability: "providesDirectionalDerivative",
+    };
     // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::GET_DIRECTIONAL_DERIVATIVE, |_| Err(refusal)) }
+    unsafe {
+        call(component, calls::GET_DIRECTIONAL_DERIVATIVE, |_| {
+            Err(refusal)
+        })
+    }
 }
 
 /// Takes time derivatives of the input, orders 1 to 3, for the next step.
@@ -66,7 +72,9 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> Status {
     let body = |_: &mut Instance| match count {
         0 => Ok(()),
-        _ => Err(Refusal::NotOffered { capability: "maxOutputDerivativeOrder" }),
+        _ => Err(Refusal::NotOffered {
+            capability: "maxOutputDerivativeOrder",
+        }),
     };
     // SAFETY: handle as the standard asks.
     unsafe { call(component, calls::GET_REAL_OUTPUT_DERIVATIVES, body) }
@@ -85,7 +93,11 @@ pub unsafe extern "C" fn fmi2DoStep(
     _no_set_state_prior: Boolean,
 ) -> Status {
     // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::DO_STEP, |instance| instance.step(point, size)) }
+    unsafe {
+        call(component, calls::DO_STEP, |instance| {
+            instance.step(point, size)
+        })
+    }
 }
 
 /// Always refused: no step is ever pending.
@@ -113,7 +125,10 @@ unsafe fn status<T: Copy>(
     let body = |instance: &mut Instance| unsafe {
         let place = Destination::new("value", place, 1)?;
         if kind != answered {
-            return Err(Refusal::StatusKind { expected, came: kind });
+            return Err(Refusal::StatusKind {
+                expected,
+                came: kind,
+            });
         }
         place.write(&[answer(instance)]);
         Ok(())
@@ -149,7 +164,11 @@ pub unsafe extern "C" fn fmi2GetRealStatus(
 ) -> Status {
     let asked = (kind, LAST_SUCCESSFUL_TIME, "2 (fmi2LastSuccessfulTime)");
     // SAFETY: handle and place as the standard asks.
-    unsafe { status(component, calls::GET_REAL_STATUS, asked, value, |i| i.motion.time) }
+    unsafe {
+        status(component, calls::GET_REAL_STATUS, asked, value, |i| {
+            i.motion.time
+        })
+    }
 }
 
 /// Always refused: the standard defines no status of type Integer.
@@ -162,7 +181,10 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
     kind: StatusKind,
     _value: *mut c_int,
 ) -> Status {
-    let refusal = Refusal::StatusKind { expected: "none of type Integer", came: kind };
+    let refusal = Refusal::StatusKind {
+        expected: "none of type Integer",
+        came: kind,
+    };
     // SAFETY: handle as the standard asks.
     unsafe { call(component, calls::GET_INTEGER_STATUS, |_| Err(refusal)) }
 }
@@ -179,7 +201,11 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
 ) -> Status {
     let asked = (kind, TERMINATED, "3 (fmi2Terminated)");
     // SAFETY: handle and place as the standard asks.
-    unsafe { status(component, calls::GET_BOOLEAN_STATUS, asked, value, |_| FALSE) }
+    unsafe {
+        status(component, calls::GET_BOOLEAN_STATUS, asked, value, |_| {
+            FALSE
+        })
+    }
 }
 
 /// `fmi2PendingStatus`: an empty text, since nothing is ever pending.
@@ -194,5 +220,9 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
 ) -> Status {
     let asked = (kind, PENDING_STATUS, "1 (fmi2PendingStatus)");
     // SAFETY: handle and place as the standard asks.
-    unsafe { status(component, calls::GET_STRING_STATUS, asked, value, |_| c"".as_ptr()) }
+    unsafe {
+        status(component, calls::GET_STRING_STATUS, asked, value, |_| {
+            c"".as_ptr()
+        })
+    }
 }

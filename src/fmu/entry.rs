@@ -35,16 +35,23 @@ fn on_instance(
     let outcome = stop(|| {
         let came = instance.mode();
         if !call.allowed_in(came) {
-            return Err(Refusal::WrongMode { expected: call.expected(), came });
+            return Err(Refusal::WrongMode {
+                expected: call.expected(),
+                came,
+            });
         }
         body(instance)
     });
-    let Err(refusal) = outcome else { return Status::Ok };
+    let Err(refusal) = outcome else {
+        return Status::Ok;
+    };
     if matches!(refusal, Refusal::Defect { .. }) {
         instance.break_down();
     }
     let text = format!("{}: {refusal}", call.name);
-    instance.messenger().tell(Status::Error, Category::Error, &text);
+    instance
+        .messenger()
+        .tell(Status::Error, Category::Error, &text);
     Status::Error
 }
 

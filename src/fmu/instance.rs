@@ -7,20 +7,21 @@ use super::logger::{Category, Messenger};
 use super::refusal::Refusal;
 use super::stepping::InputDerivatives;
 use crate::joint::{Drive, Joint, Simulation};
-use crate::variables::{Variable, variables};
+use crate::variables::Variables;
 
 /// One instance of the exported joint. Owns all it uses; nothing is shared between instances.
 #[derive(Debug)]
 pub struct Instance {
     pub(super) mode: Mode,
     pub(super) messenger: Messenger,
-    /// The joint as exported, for fmi2Reset.
-    exported: Joint,
-    /// The joint with the parameters that the host has set.
-    pub(super) joint: Joint,
+    /// The joint as exported.
+    pub(super) exported: Joint,
     pub(super) drive: Drive,
     pub(super) guid: String,
-    pub(super) variables: Vec<Variable>,
+    pub(super) variables: Variables,
+    /// Values of the parameters as the host has set them, in the order of the variables. They
+    /// become a joint together, so that no order of setting them is wrong.
+    pub(super) parameters: Vec<f64>,
     pub(super) motion: Motion,
 }
 
@@ -62,12 +63,13 @@ impl Instance {
         callbacks: Option<CallbackFunctions>,
         debug: bool,
     ) -> Result<Instance, Refusal> {
+        let variables = Variables::of(&bundle.joint, bundle.drive)?;
         Ok(Instance {
             mode: Mode::Instantiated,
             messenger: Messenger::new(callbacks, name, debug),
-            variables: variables(&bundle.joint, bundle.drive)?,
-            exported: bundle.joint.clone(),
-            joint: bundle.joint,
+            parameters: variables.values(&bundle.joint),
+            variables,
+            exported: bundle.joint,
             drive: bundle.drive,
             guid: bundle.guid,
             motion: Motion::at_rest(),
@@ -86,7 +88,8 @@ impl Instance {
 
     /// Tells an event, where the host wants to know.
     pub(super) fn tell(&self, text: &str) {
-        self.messenger.tell(super::Status::Ok, Category::Event, text);
+        self.messenger
+            .tell(super::Status::Ok, Category::Event, text);
     }
 
     /// After a defect: nothing of the motion is trusted any more.
@@ -99,8 +102,9 @@ impl Instance {
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Result<(), Refusal> {
         let mut events = categories.is_empty();
         for &name in categories {
-            let category = Category::find(name)
-                .ok_or_else(|| Refusal::Category { came: name.to_owned() })?;
+            let category = Category::find(name).ok_or_else(|| Refusal::Category {
+                came: name.to_owned(),
+            })?;
             events |= category == Category::Event;
         }
         self.messenger.debug = on && events;
@@ -138,7 +142,8 @@ impl Instance {
         let simulation = match self.motion.simulation.take() {
             Some(simulation) => simulation,
             None => {
-                let mut simulation = Simulation::new(&self.joint, self.drive)?;
+                let joint = self.variables.apply(&self.exported, &self.parameters)?;
+                let mut simulation = Simulation::new(&joint, self.drive)?;
                 simulation.step(self.motion.time, self.motion.input)?;
                 simulation
             }
@@ -155,7 +160,7 @@ impl Instance {
 
     /// Back to what fmi2Instantiate gave: exported parameters, virgin joint.
     pub fn reset(&mut self) -> Result<(), Refusal> {
-        self.joint = self.exported.clone();
+        self.parameters = self.variables.values(&self.exported);
         self.motion = Motion::at_rest();
         self.mode = Mode::Instantiated;
         self.tell("reset");

@@ -1,15 +1,14 @@
 //! From fmi2Instantiate to fmi2FreeInstance.
 
 use super::bundle::Bundle;
-use super::c_types::{
-    Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, Status, Type,
-};
+use super::c_types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, Status, Type};
 use super::calls;
 use super::entry::{call, stop};
 use super::instance::Instance;
 use super::logger::{Category, Messenger};
 use super::pointers;
 use super::refusal::Refusal;
+use crate::variables::STAMP;
 use libc::{c_char, size_t};
 
 /// `default`: the types of fmi2TypesPlatform.h.
@@ -38,8 +37,10 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     // SAFETY: strings as the standard asks.
     let body = |instance: &mut Instance| unsafe {
         let pointers = pointers::slice("categories", categories, count)?;
-        let names: Result<Vec<_>, _> =
-            pointers.iter().map(|&name| pointers::text("categories", name)).collect();
+        let names: Result<Vec<_>, _> = pointers
+            .iter()
+            .map(|&name| pointers::text("categories", name))
+            .collect();
         instance.set_debug_logging(on != FALSE, &names?)
     };
     // SAFETY: handle as the standard asks.
@@ -64,7 +65,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
 ) -> Component {
     // SAFETY: strings and callbacks as the standard asks. The callbacks are copied, so that a host
     // whose structure moves does no harm.
-    let (callbacks, name) = unsafe { (functions.as_ref().copied(), pointers::text("instanceName", name)) };
+    let (callbacks, name) = unsafe {
+        (
+            functions.as_ref().copied(),
+            pointers::text("instanceName", name),
+        )
+    };
     // SAFETY: strings as the standard asks.
     let made = stop(|| unsafe {
         if fmu_type != CO_SIMULATION {
@@ -74,11 +80,22 @@ pub unsafe extern "C" fn fmi2Instantiate(
         if resource_location.is_null() {
             return Err(Refusal::NoLocation);
         }
-        let bundle = Bundle::read(pointers::text("fmuResourceLocation", resource_location)?, guid)?;
-        Instance::new(bundle, name.as_ref().copied().unwrap_or_default(), callbacks, logging_on != FALSE)
+        let bundle = Bundle::read(
+            pointers::text("fmuResourceLocation", resource_location)?,
+            guid,
+        )?;
+        Instance::new(
+            bundle,
+            name.as_ref().copied().unwrap_or_default(),
+            callbacks,
+            logging_on != FALSE,
+        )
     });
     match made {
-        Ok(instance) => Box::into_raw(Box::new(instance)).cast(),
+        Ok(instance) => {
+            instance.tell(&format!("instantiated from {STAMP}"));
+            Box::into_raw(Box::new(instance)).cast()
+        }
         Err(refusal) => {
             let messenger = Messenger::new(callbacks, name.unwrap_or_default(), false);
             let text = format!("fmi2Instantiate: {refusal}");
@@ -120,7 +137,11 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 ) -> Status {
     let stop = (stop_defined != FALSE).then_some(stop);
     // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::SETUP_EXPERIMENT, |i| i.setup_experiment(start, stop)) }
+    unsafe {
+        call(component, calls::SETUP_EXPERIMENT, |i| {
+            i.setup_experiment(start, stop)
+        })
+    }
 }
 
 /// Begins initialization.
@@ -130,7 +151,13 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(component: Component) -> Status {
     // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::ENTER_INITIALIZATION_MODE, Instance::enter_initialization) }
+    unsafe {
+        call(
+            component,
+            calls::ENTER_INITIALIZATION_MODE,
+            Instance::enter_initialization,
+        )
+    }
 }
 
 /// Ends initialization.
@@ -140,7 +167,13 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(component: Component) -> St
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(component: Component) -> Status {
     // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::EXIT_INITIALIZATION_MODE, Instance::exit_initialization) }
+    unsafe {
+        call(
+            component,
+            calls::EXIT_INITIALIZATION_MODE,
+            Instance::exit_initialization,
+        )
+    }
 }
 
 /// Ends the experiment.

@@ -13,7 +13,9 @@ pub enum LocationError {
         came: String,
     },
     /// Another machine.
-    #[error("fmuResourceLocation: expected this machine (`localhost` or nothing), came host `{host}`")]
+    #[error(
+        "fmuResourceLocation: expected this machine (`localhost` or nothing), came host `{host}`"
+    )]
     Host {
         /// Authority of the URI.
         host: String,
@@ -33,7 +35,9 @@ pub fn folders(location: &str) -> Result<Vec<PathBuf>, LocationError> {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => path_of_uri(rest)?,
         // A single letter is a drive of Windows, not a scheme.
         Some((scheme, _)) if scheme.len() > 1 && !scheme.contains(['/', '\\']) => {
-            return Err(LocationError::Scheme { came: location.to_owned() });
+            return Err(LocationError::Scheme {
+                came: location.to_owned(),
+            });
         }
         _ => location,
     };
@@ -55,13 +59,18 @@ fn path_of_uri(rest: &str) -> Result<&str, LocationError> {
         Some(after) => {
             let (host, path) = after.split_at(after.find('/').unwrap_or(after.len()));
             if !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
-                return Err(LocationError::Host { host: host.to_owned() });
+                return Err(LocationError::Host {
+                    host: host.to_owned(),
+                });
             }
             path
         }
     };
     let drive = path.trim_start_matches('/');
-    let is_drive = drive.as_bytes().first().is_some_and(u8::is_ascii_alphabetic)
+    let is_drive = drive
+        .as_bytes()
+        .first()
+        .is_some_and(u8::is_ascii_alphabetic)
         && matches!(drive.as_bytes().get(1), Some(b':' | b'|'));
     Ok(if is_drive { drive } else { path })
 }
@@ -75,7 +84,11 @@ fn decoded(text: &str) -> Option<String> {
         rest = after;
         if first == b'%' {
             let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
-            bytes.push(u8::from_str_radix(digits, 16).ok().filter(|_| !digits.starts_with('+'))?);
+            bytes.push(
+                u8::from_str_radix(digits, 16)
+                    .ok()
+                    .filter(|_| !digits.starts_with('+'))?,
+            );
             rest = &rest[2..];
         } else {
             bytes.push(first);
@@ -106,22 +119,35 @@ mod tests {
             // `PathBuf` compares by components: `//tmp` and a trailing slash mean the same.
             assert_eq!(first(form), PathBuf::from("/tmp/a b/resources"), "{form}");
         }
-        assert_eq!(first("file:///C:/a/resources"), PathBuf::from("C:/a/resources"));
+        assert_eq!(
+            first("file:///C:/a/resources"),
+            PathBuf::from("C:/a/resources")
+        );
         assert_eq!(first("C:/a/resources"), PathBuf::from("C:/a/resources"));
     }
 
     #[test]
     fn a_raw_percent_sign_is_found_too() {
-        assert_eq!(folders("file:///a/100%/r").unwrap(), [PathBuf::from("/a/100%/r")]);
+        assert_eq!(
+            folders("file:///a/100%/r").unwrap(),
+            [PathBuf::from("/a/100%/r")]
+        );
         let both = folders("file:///a/%41/r").unwrap();
         assert_eq!(both, [PathBuf::from("/a/A/r"), PathBuf::from("/a/%41/r")]);
     }
 
     #[test]
     fn what_is_no_folder_is_told_apart() {
-        let scheme = LocationError::Scheme { came: "http://a/b".into() };
+        let scheme = LocationError::Scheme {
+            came: "http://a/b".into(),
+        };
         assert_eq!(folders("http://a/b"), Err(scheme));
-        assert_eq!(folders("file://there/b"), Err(LocationError::Host { host: "there".into() }));
+        assert_eq!(
+            folders("file://there/b"),
+            Err(LocationError::Host {
+                host: "there".into()
+            })
+        );
         assert_eq!(folders("file://"), Err(LocationError::Empty));
         assert_eq!(folders(""), Err(LocationError::Empty));
     }

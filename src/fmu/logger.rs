@@ -23,7 +23,9 @@ impl Category {
 
     /// The category of that name.
     pub fn find(name: &str) -> Option<Category> {
-        [Category::Error, Category::Event].into_iter().find(|category| category.name() == name)
+        [Category::Error, Category::Event]
+            .into_iter()
+            .find(|category| category.name() == name)
     }
 }
 
@@ -39,7 +41,11 @@ pub struct Messenger {
 impl Messenger {
     /// Takes a copy of the callbacks; `None` where the host gave NULL.
     pub fn new(callbacks: Option<CallbackFunctions>, instance: &str, debug: bool) -> Messenger {
-        Messenger { callbacks, instance: c_text(instance), debug }
+        Messenger {
+            callbacks,
+            instance: c_text(instance),
+            debug,
+        }
     }
 
     /// Hands a text to the host; no logger, no message. The text travels as the *format* of a
@@ -48,8 +54,11 @@ impl Messenger {
         if category == Category::Event && !self.debug {
             return;
         }
-        let Some(CallbackFunctions { logger: Some(logger), component_environment, .. }) =
-            self.callbacks
+        let Some(CallbackFunctions {
+            logger: Some(logger),
+            component_environment,
+            ..
+        }) = self.callbacks
         else {
             return;
         };

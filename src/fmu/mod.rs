@@ -6,8 +6,8 @@
 //! [`instance::Instance`]. Outputs are written only on success. There are no globals.
 
 mod bundle;
-mod calls;
 mod c_types;
+mod calls;
 mod cosimulation;
 mod entry;
 mod instance;

@@ -80,7 +80,11 @@ fn check<T>(argument: &'static str, pointer: *const T, count: usize) -> Result<(
     }
     let largest = isize::MAX as usize / size_of::<T>().max(1);
     if count > largest {
-        return Err(Refusal::TooMany { argument, count, largest });
+        return Err(Refusal::TooMany {
+            argument,
+            count,
+            largest,
+        });
     }
     Ok(())
 }

@@ -22,7 +22,11 @@ pub enum Refusal {
     Misaligned { argument: &'static str },
     /// A count beyond the address space.
     #[error("{argument}: expected at most {largest} items, came {count}")]
-    TooMany { argument: &'static str, count: usize, largest: usize },
+    TooMany {
+        argument: &'static str,
+        count: usize,
+        largest: usize,
+    },
     /// A text in another encoding.
     #[error("{argument}: expected UTF-8, came other bytes")]
     NotUtf8 { argument: &'static str },
@@ -34,7 +38,11 @@ pub enum Refusal {
         "fmuGUID: expected {force_driven} or {displacement_driven}, as resources/joint.json says, \
          came {came}: the archive's parts belong to different exports"
     )]
-    WrongGuid { force_driven: String, displacement_driven: String, came: String },
+    WrongGuid {
+        force_driven: String,
+        displacement_driven: String,
+        came: String,
+    },
     /// No location.
     #[error(
         "fmuResourceLocation: expected the URI of the folder `resources`, came NULL: the joint is \
@@ -46,7 +54,10 @@ pub enum Refusal {
     Location(#[from] LocationError),
     /// joint.json is not there or not readable.
     #[error("expected the joint in {path}, came: {error}")]
-    Unreadable { path: PathBuf, error: std::io::Error },
+    Unreadable {
+        path: PathBuf,
+        error: std::io::Error,
+    },
     /// joint.json is no joint.
     #[error(transparent)]
     Saved(#[from] SavedError),
@@ -64,13 +75,23 @@ pub enum Refusal {
     UnknownReference { expected: &'static str, came: u32 },
     /// A variable that is not for setting.
     #[error("expected an input or, before the first step, a parameter; came {causality} `{name}`")]
-    NotSettable { name: String, causality: &'static str },
+    NotSettable {
+        name: String,
+        causality: &'static str,
+    },
     /// A parameter after the start.
-    #[error("expected parameter `{name}` before fmi2ExitInitializationMode: it is fixed afterwards")]
+    #[error(
+        "expected parameter `{name}` before fmi2ExitInitializationMode: it is fixed afterwards"
+    )]
     Fixed { name: String },
     /// A value outside its bounds, or no number.
     #[error("`{name}`: expected a number from {lower} to {upper}, came {came}")]
-    OutOfRange { name: String, lower: f64, upper: f64, came: f64 },
+    OutOfRange {
+        name: String,
+        lower: f64,
+        upper: f64,
+        came: f64,
+    },
     /// A derivative of something else than the input.
     #[error("expected the reference of the input, came {came}")]
     NotInput { came: u32 },
@@ -85,7 +106,11 @@ pub enum Refusal {
     StepSize { came: f64 },
     /// A step from elsewhere.
     #[error("currentCommunicationPoint: expected {expected} s (to {tolerance:e} s), came {came} s")]
-    CommunicationPoint { expected: f64, tolerance: f64, came: f64 },
+    CommunicationPoint {
+        expected: f64,
+        tolerance: f64,
+        came: f64,
+    },
     /// A step past the end.
     #[error("expected a step that ends by the stop time {stop} s, came one to {came} s")]
     PastStop { stop: f64, came: f64 },

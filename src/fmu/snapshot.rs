@@ -104,10 +104,21 @@ impl Snapshot {
         bytes.push(u8::from(self.stop.is_some()) | u8::from(self.simulation.is_some()) << 1);
         let [first, second, third] = self.derivatives;
         let stop = self.stop.unwrap_or_default();
-        for number in [self.time, stop, self.input, first, second, third, self.dissipation_rate] {
+        for number in [
+            self.time,
+            stop,
+            self.input,
+            first,
+            second,
+            third,
+            self.dissipation_rate,
+        ] {
             bytes.extend(number.to_le_bytes());
         }
-        for numbers in [&self.parameters[..], self.simulation.as_deref().unwrap_or_default()] {
+        for numbers in [
+            &self.parameters[..],
+            self.simulation.as_deref().unwrap_or_default(),
+        ] {
             bytes.extend((numbers.len() as u64).to_le_bytes());
             bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
         }
@@ -120,7 +131,11 @@ impl Snapshot {
     /// Other bytes, another version, another length than announced, damaged fields.
     pub fn from_bytes(bytes: &[u8]) -> Result<Snapshot, SnapshotError> {
         let mut reader = Reader(bytes);
-        if reader.take("magic").is_ok_and(|magic: [u8; 8]| magic != MAGIC) || bytes.len() < 8 {
+        if reader
+            .take("magic")
+            .is_ok_and(|magic: [u8; 8]| magic != MAGIC)
+            || bytes.len() < 8
+        {
             return Err(SnapshotError::Foreign);
         }
         let version = u32::from_le_bytes(reader.take("version")?);
@@ -129,7 +144,10 @@ impl Snapshot {
         }
         let expected = u64::from_le_bytes(reader.take("length")?);
         if expected != bytes.len() as u64 {
-            return Err(SnapshotError::Length { expected, came: bytes.len() as u64 });
+            return Err(SnapshotError::Length {
+                expected,
+                came: bytes.len() as u64,
+            });
         }
         let guid: [u8; GUID_LENGTH] = reader.take("GUID")?;
         let guid = String::from_utf8(guid.to_vec())
@@ -172,8 +190,10 @@ struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
     fn take<const N: usize>(&mut self, field: &'static str) -> Result<[u8; N], SnapshotError> {
-        let (first, rest) =
-            self.0.split_first_chunk().ok_or(SnapshotError::Damaged { field })?;
+        let (first, rest) = self
+            .0
+            .split_first_chunk()
+            .ok_or(SnapshotError::Damaged { field })?;
         self.0 = rest;
         Ok(*first)
     }

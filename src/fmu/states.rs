@@ -8,8 +8,7 @@ use super::pointers::{self, Destination};
 use super::refusal::Refusal;
 use super::snapshot::{Snapshot, SnapshotError};
 use super::stepping::InputDerivatives;
-use crate::joint::{Joint, Simulation};
-use crate::variables::{Causality, Place};
+use crate::joint::Simulation;
 use libc::{c_char, size_t};
 
 impl Instance {
@@ -24,27 +23,27 @@ impl Instance {
             input: motion.input,
             derivatives: motion.derivatives.0,
             dissipation_rate: motion.dissipation_rate,
-            parameters: self.parameters().filter_map(|place| place.read(&self.joint)).collect(),
+            parameters: self.parameters.clone(),
             simulation: motion.simulation.as_ref().map(Simulation::state),
         }
     }
 
     /// Puts back a state of the same joint, mode included; on a refusal nothing changes.
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
-        let joint = self.joint_of(snapshot)?;
-        let simulation = match &snapshot.simulation {
-            None => None,
-            Some(state) => {
-                let mut simulation = match &self.motion.simulation {
-                    // With the same parameters the tables of the joint need not be made again.
-                    Some(simulation) if joint == self.joint => simulation.clone(),
-                    _ => Simulation::new(&joint, self.drive)?,
-                };
-                simulation.restore(state)?;
-                Some(simulation)
-            }
-        };
-        self.joint = joint;
+        self.check(snapshot)?;
+        let simulation = snapshot.simulation.as_ref().map(|state| {
+            let mut simulation = match &self.motion.simulation {
+                // With the same parameters the tables of the joint need not be made again.
+                Some(simulation) if snapshot.parameters == self.parameters => simulation.clone(),
+                _ => {
+                    let joint = self.variables.apply(&self.exported, &snapshot.parameters)?;
+                    Simulation::new(&joint, self.drive)?
+                }
+            };
+            simulation.restore(state).map(|()| simulation)
+        });
+        let simulation = simulation.transpose()?;
+        self.parameters.clone_from(&snapshot.parameters);
         self.mode = snapshot.mode;
         self.motion = Motion {
             time: snapshot.time,
@@ -57,28 +56,19 @@ impl Instance {
         Ok(())
     }
 
-    /// The joint with the parameters of a state.
-    fn joint_of(&self, snapshot: &Snapshot) -> Result<Joint, SnapshotError> {
+    /// Holds a state against this joint.
+    fn check(&self, snapshot: &Snapshot) -> Result<(), SnapshotError> {
         if snapshot.guid != self.guid {
             return Err(SnapshotError::OtherJoint {
                 expected: self.guid.clone(),
                 came: snapshot.guid.clone(),
             });
         }
-        let (expected, came) = (self.parameters().count(), snapshot.parameters.len());
+        let (expected, came) = (self.parameters.len(), snapshot.parameters.len());
         if expected != came {
             return Err(SnapshotError::Parameters { expected, came });
         }
-        let mut joint = self.joint.clone();
-        for (place, &value) in self.parameters().zip(&snapshot.parameters) {
-            place.write(&mut joint, value);
-        }
-        Ok(joint)
-    }
-
-    fn parameters(&self) -> impl Iterator<Item = Place> + '_ {
-        let all = self.variables.iter();
-        all.filter(|variable| variable.causality == Causality::Parameter).map(|v| v.place)
+        Ok(())
     }
 }
 
@@ -88,8 +78,9 @@ impl Instance {
 /// `state` is NULL or came from fmi2GetFMUstate or fmi2DeSerializeFMUstate and is not freed yet.
 unsafe fn saved<'a>(state: FmuState) -> Result<&'a Snapshot, Refusal> {
     // SAFETY: not NULL, it points to a snapshot that `keep` made, by this function's contract.
-    unsafe { state.cast::<Snapshot>().as_ref() }
-        .ok_or(Refusal::NullPointer { argument: "FMUstate" })
+    unsafe { state.cast::<Snapshot>().as_ref() }.ok_or(Refusal::NullPointer {
+        argument: "FMUstate",
+    })
 }
 
 /// Puts a state behind a handle: the one that is there already, or a new one where it is NULL.
@@ -132,7 +123,11 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuSt
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
     // SAFETY: handles as the standard asks.
-    unsafe { call(component, calls::SET_FMU_STATE, |instance| instance.restore(saved(state)?)) }
+    unsafe {
+        call(component, calls::SET_FMU_STATE, |instance| {
+            instance.restore(saved(state)?)
+        })
+    }
 }
 
 /// Frees a saved state and makes its handle NULL; NULL is legal.
@@ -192,7 +187,10 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     let body = |_: &mut Instance| unsafe {
         let expected = saved(state)?.length();
         if size < expected {
-            return Err(Refusal::Buffer { expected, came: size });
+            return Err(Refusal::Buffer {
+                expected,
+                came: size,
+            });
         }
         Destination::new("serializedState", bytes.cast(), size)?.write(&saved(state)?.to_bytes());
         Ok(())
@@ -215,8 +213,9 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     // SAFETY: handles and bytes as the standard asks.
     let body = |instance: &mut Instance| unsafe {
         Destination::new("FMUstate", state, 1)?;
-        let snapshot = Snapshot::from_bytes(pointers::slice("serializedState", bytes.cast(), size)?)?;
-        instance.joint_of(&snapshot)?;
+        let snapshot =
+            Snapshot::from_bytes(pointers::slice("serializedState", bytes.cast(), size)?)?;
+        instance.check(&snapshot)?;
         keep(state, snapshot);
         Ok(())
     };

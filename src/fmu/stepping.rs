@@ -2,7 +2,6 @@
 
 use super::instance::Instance;
 use super::refusal::Refusal;
-use crate::variables::Causality;
 
 /// A communication point may differ from the instance's own time by this, relative to the time
 /// (absolute below one second): importers that sum their steps were seen to be off by 1e-9.
@@ -81,7 +80,11 @@ impl Instance {
         // Written so that NaN is refused.
         let close = (point - now).abs() <= tolerance;
         if !close {
-            return Err(Refusal::CommunicationPoint { expected: now, tolerance, came: point });
+            return Err(Refusal::CommunicationPoint {
+                expected: now,
+                tolerance,
+                came: point,
+            });
         }
         let end = (point + size).max(now);
         if let Some(stop) = self.motion.stop
@@ -102,17 +105,24 @@ impl Instance {
         let mut derivatives = self.motion.derivatives;
         let largest = derivatives.0.len();
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            let variable = self.variable(reference)?;
-            if variable.causality != Causality::Input {
-                return Err(Refusal::NotInput { came: reference });
-            }
-            let slot = usize::try_from(order).ok().and_then(|order| order.checked_sub(1));
+            let variable = self.input_variable(reference)?;
+            let slot = usize::try_from(order)
+                .ok()
+                .and_then(|order| order.checked_sub(1));
             let slot = slot.and_then(|slot| derivatives.0.get_mut(slot));
-            let slot = slot.ok_or(Refusal::Order { largest, came: order })?;
+            let slot = slot.ok_or(Refusal::Order {
+                largest,
+                came: order,
+            })?;
             if !value.is_finite() {
                 let (lower, upper) = (f64::MIN, f64::MAX);
                 let name = format!("derivative {order} of {}", variable.name);
-                return Err(Refusal::OutOfRange { name, lower, upper, came: value });
+                return Err(Refusal::OutOfRange {
+                    name,
+                    lower,
+                    upper,
+                    came: value,
+                });
             }
             *slot = value;
         }

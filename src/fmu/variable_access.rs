@@ -63,7 +63,10 @@ unsafe fn none_of(
     // SAFETY: array as the standard asks.
     let body = |_: &mut Instance| match unsafe { pointers::slice("vr", references, count)? } {
         [] => Ok(()),
-        [came, ..] => Err(Refusal::UnknownReference { expected, came: *came }),
+        [came, ..] => Err(Refusal::UnknownReference {
+            expected,
+            came: *came,
+        }),
     };
     // SAFETY: handle as the standard asks.
     unsafe { call(component, function, body) }

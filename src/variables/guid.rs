@@ -8,7 +8,13 @@ use crate::joint::Drive;
 pub fn guid(joint_json: &str, drive: Drive) -> String {
     let hash = fnv1a(joint_json.bytes().chain([0]).chain(name(drive).bytes()));
     let digits = format!("{hash:032x}");
-    let parts = [&digits[..8], &digits[8..12], &digits[12..16], &digits[16..20], &digits[20..]];
+    let parts = [
+        &digits[..8],
+        &digits[8..12],
+        &digits[12..16],
+        &digits[16..20],
+        &digits[20..],
+    ];
     parts.join("-")
 }
 
@@ -30,7 +36,9 @@ fn name(drive: Drive) -> &'static str {
 fn fnv1a(bytes: impl Iterator<Item = u8>) -> u128 {
     const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
-    bytes.fold(OFFSET, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))
+    bytes.fold(OFFSET, |hash, byte| {
+        (hash ^ u128::from(byte)).wrapping_mul(PRIME)
+    })
 }
 
 #[cfg(test)]
@@ -41,14 +49,26 @@ mod tests {
     #[test]
     fn hash_matches_published_values() {
         assert_eq!(fnv1a([].into_iter()), 0x6c62272e07bb014262b821756295c58d);
-        assert_eq!(fnv1a(b"a".iter().copied()), 0xd228cb696f1a8caf78912b704e4a8964);
+        assert_eq!(
+            fnv1a(b"a".iter().copied()),
+            0xd228cb696f1a8caf78912b704e4a8964
+        );
     }
 
     #[test]
     fn guid_tells_drive_and_text_apart() {
         let text = "{\"version\": 1}";
-        assert_eq!(drive_of(text, &guid(text, Drive::Displacement)), Some(Drive::Displacement));
-        assert_eq!(drive_of(text, &guid(text, Drive::Force)), Some(Drive::Force));
-        assert_eq!(drive_of("{\"version\": 2}", &guid(text, Drive::Force)), None);
+        assert_eq!(
+            drive_of(text, &guid(text, Drive::Displacement)),
+            Some(Drive::Displacement)
+        );
+        assert_eq!(
+            drive_of(text, &guid(text, Drive::Force)),
+            Some(Drive::Force)
+        );
+        assert_eq!(
+            drive_of("{\"version\": 2}", &guid(text, Drive::Force)),
+            None
+        );
     }
 }

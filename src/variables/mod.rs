@@ -7,9 +7,9 @@ mod table;
 
 pub use guid::{drive_of, guid};
 pub use places::{Place, VariableError};
-pub use table::{Causality, Signal};
+pub use table::{Causality, STAMP, Signal};
 
-use crate::joint::{Drive, Joint};
+use crate::joint::{Drive, Joint, JointError};
 use table::SIGNALS;
 
 /// FMI model identifier: name of the library in the archive, and of its function prefix.
@@ -48,13 +48,47 @@ impl Variable {
     }
 }
 
-/// Every variable of a joint under a drive: the signals first, in the order of their table, then
-/// the parameters of the joint, then those of its causes.
-///
-/// # Errors
-/// A name without a value reference, a cause that stands twice, a measurement cause.
-pub fn variables(joint: &Joint, drive: Drive) -> Result<Vec<Variable>, VariableError> {
-    let mut list: Vec<_> = SIGNALS.iter().map(|row| row.variable(drive)).collect();
-    list.extend(places::parameters(joint)?);
-    Ok(list)
+/// Every variable of a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variables {
+    /// Input, outputs and locals, in the order of their table.
+    pub signals: Vec<Variable>,
+    /// The joint's own parameters, then those of its causes.
+    pub parameters: Vec<Variable>,
+}
+
+impl Variables {
+    /// The variables of a joint under a drive.
+    ///
+    /// # Errors
+    /// A name without a value reference, a cause that stands twice, a measurement cause.
+    pub fn of(joint: &Joint, drive: Drive) -> Result<Variables, VariableError> {
+        Ok(Variables {
+            signals: SIGNALS.iter().map(|row| row.variable(drive)).collect(),
+            parameters: places::parameters(joint)?,
+        })
+    }
+
+    /// Signals, then parameters.
+    pub fn iter(&self) -> impl Iterator<Item = &Variable> {
+        self.signals.iter().chain(&self.parameters)
+    }
+
+    /// Values of the parameters in this joint [SI], in order.
+    pub fn values(&self, joint: &Joint) -> Vec<f64> {
+        self.parameters
+            .iter()
+            .filter_map(|variable| variable.place.read(joint))
+            .collect()
+    }
+
+    /// This joint with other values of its parameters [SI], in order. With its own values it is
+    /// the same joint to the last bit.
+    ///
+    /// # Errors
+    /// [`JointError::OutOfRange`] where the density cannot be with these values together.
+    pub fn apply(&self, joint: &Joint, values: &[f64]) -> Result<Joint, JointError> {
+        let places = self.parameters.iter().map(|variable| variable.place);
+        places::apply(joint, places.zip(values.iter().copied()))
+    }
 }

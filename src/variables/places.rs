@@ -2,7 +2,7 @@
 
 use super::table::{CAUSE_REFERENCES, PARAMETER_REFERENCES, REFERENCES_PER_CAUSE};
 use super::{Causality, Signal, Variable};
-use crate::joint::{Joint, Parameter};
+use crate::joint::{Density, Joint, JointError, Parameter, PowerLawTable, Sliders};
 
 /// Where a variable's value lives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,21 +34,55 @@ impl Place {
             }
         }
     }
+}
 
-    /// Puts a value of a parameter [SI] into this joint; a signal changes nothing.
-    pub fn write(self, joint: &mut Joint, value: f64) {
-        match self {
-            Place::Signal(_) => {}
-            Place::SeriesStiffness => joint.series_stiffness = value,
-            Place::Density(parameter) => joint.density.set_value(parameter, value),
-            Place::Effect { effect, parameter } => {
-                if let Some(acting) = joint.effects.get_mut(effect)
-                    && let Some(slot) = acting.values.get_mut(parameter)
-                {
-                    *slot = value;
-                }
-            }
+/// The joint with these values in these places.
+pub fn apply(
+    joint: &Joint,
+    values: impl Iterator<Item = (Place, f64)>,
+) -> Result<Joint, JointError> {
+    let mut changed = joint.clone();
+    let mut density = joint.density.values();
+    for (place, value) in values {
+        let slot = match place {
+            Place::Signal(_) => None,
+            Place::SeriesStiffness => Some(&mut changed.series_stiffness),
+            Place::Density(parameter) => density.get_mut(parameter),
+            Place::Effect { effect, parameter } => changed
+                .effects
+                .get_mut(effect)
+                .and_then(|acting| acting.values.get_mut(parameter)),
+        };
+        if let Some(slot) = slot {
+            *slot = value;
         }
+    }
+    if density != joint.density.values() {
+        changed.density = with_values(&joint.density, &density)?;
+    }
+    Ok(changed)
+}
+
+/// The density with other scalar parameters; its table or sliders stay.
+fn with_values(density: &Density, values: &[f64]) -> Result<Density, JointError> {
+    match (density, values) {
+        (Density::PowerLawTable(table), &[coefficient, exponent, slider_stiffness, stiffness]) => {
+            let (break_free, density) = (table.break_free.clone(), table.density.clone());
+            PowerLawTable::new(
+                coefficient,
+                exponent,
+                slider_stiffness,
+                stiffness,
+                break_free,
+                density,
+            )
+            .map(Density::PowerLawTable)
+        }
+        (Density::Sliders(sliders), &[elastic]) => {
+            Sliders::new(sliders.weight.clone(), sliders.slip_at.clone(), elastic)
+                .map(Density::Sliders)
+        }
+        _ => Density::from_values(density.family(), values),
     }
 }
 
@@ -91,20 +125,28 @@ pub enum VariableError {
     },
 }
 
-/// Parameters of a joint: K_1 where it is finite, the density's glossary, the causes'.
+/// Parameters of a joint: K_1, the density's glossary, the causes'. What is infinite in this joint
+/// is left out, since neither XML nor an importer's field could hold it.
 pub fn parameters(joint: &Joint) -> Result<Vec<Variable>, VariableError> {
-    let mut list = Vec::new();
-    // An infinite K_1 is no number that XML or an importer's slider could hold: left out.
-    if joint.series_stiffness.is_finite() {
-        let reference = reference_of("series_stiffness")?;
-        list.push(variable(reference, "", &SERIES_STIFFNESS, Place::SeriesStiffness));
-    }
+    let reference = reference_of("series_stiffness")?;
+    let mut list = vec![variable(
+        reference,
+        "",
+        &SERIES_STIFFNESS,
+        Place::SeriesStiffness,
+    )];
     for (index, entry) in joint.density.parameters().iter().enumerate() {
-        list.push(variable(reference_of(entry.name)?, "", entry, Place::Density(index)));
+        list.push(variable(
+            reference_of(entry.name)?,
+            "",
+            entry,
+            Place::Density(index),
+        ));
     }
     for effect in 0..joint.effects.len() {
         list.extend(cause_parameters(joint, effect)?);
     }
+    list.retain(|variable| variable.place.read(joint).is_some_and(f64::is_finite));
     Ok(list)
 }
 
@@ -113,7 +155,7 @@ static SERIES_STIFFNESS: Parameter = Parameter {
     name: "series_stiffness",
     symbol: "K_1",
     unit: "N/m",
-    lower: f64::MIN_POSITIVE,
+    lower: 1e-12,
     upper: f64::INFINITY,
     vanishes_at: None,
     meaning: "Stiffness of the spring in series with the Iwan network",
@@ -124,10 +166,17 @@ fn cause_parameters(joint: &Joint, effect: usize) -> Result<Vec<Variable>, Varia
     let name = acting.name();
     let glossary = acting.parameters();
     if acting.place().is_measurement() {
-        return Err(VariableError::MeasurementCause { name: name.to_owned() });
+        return Err(VariableError::MeasurementCause {
+            name: name.to_owned(),
+        });
     }
-    if joint.effects[..effect].iter().any(|other| other.effect.name() == name) {
-        return Err(VariableError::CauseTwice { name: name.to_owned() });
+    if joint.effects[..effect]
+        .iter()
+        .any(|other| other.effect.name() == name)
+    {
+        return Err(VariableError::CauseTwice {
+            name: name.to_owned(),
+        });
     }
     if glossary.len() > REFERENCES_PER_CAUSE as usize {
         return Err(VariableError::TooManyParameters {
@@ -136,8 +185,9 @@ fn cause_parameters(joint: &Joint, effect: usize) -> Result<Vec<Variable>, Varia
             room: REFERENCES_PER_CAUSE,
         });
     }
-    let first = find(CAUSE_REFERENCES, name)
-        .ok_or_else(|| VariableError::UnknownCause { name: name.to_owned() })?;
+    let first = find(CAUSE_REFERENCES, name).ok_or_else(|| VariableError::UnknownCause {
+        name: name.to_owned(),
+    })?;
     let places = (first..).zip(glossary).enumerate();
     Ok(places
         .map(|(parameter, (reference, entry))| {
@@ -165,8 +215,9 @@ fn variable(reference: u32, owner: &str, entry: &Parameter, place: Place) -> Var
 }
 
 fn reference_of(name: &str) -> Result<u32, VariableError> {
-    find(PARAMETER_REFERENCES, name)
-        .ok_or_else(|| VariableError::UnknownParameter { name: name.to_owned() })
+    find(PARAMETER_REFERENCES, name).ok_or_else(|| VariableError::UnknownParameter {
+        name: name.to_owned(),
+    })
 }
 
 fn find(table: &[(&str, u32)], name: &str) -> Option<u32> {
