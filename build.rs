@@ -173,6 +173,7 @@ fn stamp() -> u64 {
         "modelDescription",
         "src/joint",
         "src/causes",
+        "src/saved",
         "src/fmu",
         "src/variables",
     ] {

@@ -27,7 +27,7 @@ impl Bundle {
             displacement_driven: guid(&text, Drive::Displacement),
             came: came.to_owned(),
         })?;
-        let joint = saved::read(&text, &path)?.joint;
+        let joint = saved::read(&text, &path.display().to_string())?.joint;
         Ok(Bundle {
             joint,
             drive,

@@ -1,10 +1,10 @@
-//! Why an archive was not written.
+//! Why an archive was not made.
 
 use crate::saved::SavedError;
 use crate::variables::VariableError;
 use std::path::PathBuf;
 
-/// Why an archive was not written; no half of one is ever left.
+/// Why an archive was not made.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
     /// joint.json is no joint.
@@ -89,12 +89,12 @@ pub enum PackError {
         /// Stamp of this program.
         expected: &'static str,
     },
-    /// The archive cannot be written.
-    #[error("cannot write {path}: {error}")]
-    Unwritable {
-        /// The archive.
-        path: PathBuf,
-        /// What the system says.
+    /// The format cannot hold an entry.
+    #[error("cannot make the archive: {name}: {error}")]
+    Entry {
+        /// The entry.
+        name: String,
+        /// What is wrong with it.
         error: std::io::Error,
     },
 }

@@ -12,9 +12,7 @@ pub use library::{BUILD_COMMAND, Library, VARIABLE};
 use crate::joint::{Drive, Joint};
 use crate::saved;
 use crate::variables::{Variables, guid};
-use std::fs::{self, File};
-use std::io::{Result as Io, Write};
-use std::path::{Path, PathBuf};
+use std::io::{Cursor, Write};
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 /// The entries of an archive; the same joint, drive and libraries give the same bytes.
@@ -24,25 +22,25 @@ pub struct Archive {
 }
 
 impl Archive {
-    /// Makes the archive of the text of a joint.json; `path` only names it in messages.
+    /// Makes the archive of the text of a joint.json; `file` only names it in messages.
     ///
     /// # Errors
     /// A text that is no joint, a joint that FMI variables cannot show, two libraries for one
     /// platform.
     pub fn new(
         joint_json: &str,
-        path: &Path,
+        file: &str,
         drive: Drive,
         libraries: &[Library],
     ) -> Result<Archive, PackError> {
-        let joint = saved::read(joint_json, path)?.joint;
+        let joint = saved::read(joint_json, file)?.joint;
         let variables = Variables::of(&joint, drive)?;
         check_starts(&variables, &joint)?;
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
         let xml = model_description::xml(&joint, drive, &variables, &guid).map_err(|error| {
             PackError::Unwritable {
-                path: path.to_owned(),
+                name: "modelDescription.xml".to_owned(),
                 error,
             }
         })?;
@@ -63,26 +61,12 @@ impl Archive {
         Ok(Archive { entries })
     }
 
-    /// Writes the archive beside its place and moves it there, so that no half of one is ever
-    /// found under its name.
+    /// The archive as a zip file.
     ///
     /// # Errors
-    /// [`PackError::Unwritable`]; what was written is taken away again.
-    pub fn write(&self, path: &Path) -> Result<(), PackError> {
-        let part = part_of(path);
-        let written = self.write_to(&part).and_then(|()| fs::rename(&part, path));
-        written.map_err(|error| {
-            // The part may not exist; that it stays behind would be no worse error than the first.
-            let _ = fs::remove_file(&part);
-            PackError::Unwritable {
-                path: path.to_owned(),
-                error,
-            }
-        })
-    }
-
-    fn write_to(&self, path: &Path) -> Io<()> {
-        let mut zip = ZipWriter::new(File::create(path)?);
+    /// [`PackError::Entry`] where the format cannot hold an entry, e.g. one beyond 4 GB.
+    pub fn bytes(&self) -> Result<Vec<u8>, PackError> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         for (name, bytes) in &self.entries {
             let permissions = if name.starts_with("binaries/") {
                 0o755
@@ -94,22 +78,25 @@ impl Archive {
                 .compression_method(zip::CompressionMethod::Deflated)
                 .last_modified_time(zip::DateTime::default())
                 .unix_permissions(permissions);
-            zip.start_file(name.as_str(), options)?;
-            zip.write_all(bytes)?;
+            let refuse = |error: std::io::Error| PackError::Entry {
+                name: name.clone(),
+                error,
+            };
+            zip.start_file(name.as_str(), options)
+                .map_err(|e| refuse(e.into()))?;
+            zip.write_all(bytes).map_err(refuse)?;
         }
-        zip.finish()?.sync_all()
+        let refuse = |error: zip::result::ZipError| PackError::Entry {
+            name: "the archive's directory".to_owned(),
+            error: error.into(),
+        };
+        Ok(zip.finish().map_err(refuse)?.into_inner())
     }
 
     /// Names of the entries, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.entries.iter().map(|(name, _)| name.as_str())
     }
-}
-
-/// `joint.fmu` → `.joint.fmu.1234.part`, in the same folder, so that moving it is one step.
-fn part_of(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
 }
 
 fn check_starts(variables: &Variables, joint: &Joint) -> Result<(), PackError> {

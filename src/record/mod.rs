@@ -1,5 +1,7 @@
 //! A measurement as values. SI units.
 
+pub mod cycles;
+
 /// Force and displacement of one test.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Record {
