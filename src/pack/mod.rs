@@ -39,7 +39,7 @@ impl Archive {
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
         let xml = model_description::xml(&joint, drive, &variables, &guid).map_err(|error| {
-            PackError::Unwritable {
+            PackError::Entry {
                 name: "modelDescription.xml".to_owned(),
                 error,
             }
