@@ -9,9 +9,12 @@ pub mod causes;
 pub mod cli;
 #[cfg(feature = "tool")]
 pub mod diagnose;
+pub mod fmu;
 #[cfg(feature = "tool")]
 pub mod identify;
 pub mod joint;
+#[cfg(feature = "tool")]
+pub mod pack;
 #[cfg(feature = "tool")]
 pub mod read;
 #[cfg(feature = "tool")]
@@ -19,3 +22,4 @@ pub mod record;
 pub mod saved;
 #[cfg(feature = "tool")]
 pub mod report;
+pub mod variables;
