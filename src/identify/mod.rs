@@ -1,0 +1,8 @@
+//! From records to a joint: the report's own procedure, the operator dictionary, the parametric
+//! families, and the intervals of what they give.
+
+pub mod interval;
+pub mod seed;
+
+pub use interval::Estimated;
+pub use seed::{Seed, SeedError};
