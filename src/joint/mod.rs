@@ -2,15 +2,17 @@
 
 pub mod density;
 pub mod effect;
+pub mod memory;
 pub mod parameters;
 pub mod simulation;
 pub mod virgin;
 
-pub use density::{Density, Sliders};
+pub use density::{Density, FourParameter, PowerLaw, PowerLawTable, Sliders, SmallForce};
 pub use effect::{Acting, Effect, Place, Response, Situation, SlipLimit, Trajectory};
+pub use memory::ExactResponse;
 pub use parameters::Parameter;
 pub use simulation::{Drive, JointError, Output, Simulation};
-pub use virgin::VirginCurve;
+pub use virgin::{BehindSpring, VirginCurve};
 
 /// Segalman's augmented joint (Eq. 52): a spring K_1 in series with an Iwan network, and the
 /// effects that act on it.
