@@ -9,4 +9,6 @@ pub mod causes;
 pub mod diagnose;
 pub mod joint;
 #[cfg(feature = "tool")]
+pub mod read;
+#[cfg(feature = "tool")]
 pub mod record;
