@@ -7,6 +7,8 @@
 pub mod causes;
 #[cfg(feature = "tool")]
 pub mod diagnose;
+#[cfg(feature = "tool")]
+pub mod identify;
 pub mod joint;
 #[cfg(feature = "tool")]
 pub mod read;

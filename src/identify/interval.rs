@@ -116,7 +116,10 @@ mod tests {
     fn student_factors_are_those_of_the_tables() {
         // Abramowitz & Stegun, table 26.10; the series is right to 0.2 % at three degrees.
         for (degrees, tabulated) in [(1, 12.706), (2, 4.303), (3, 3.182), (5, 2.571), (30, 2.042)] {
-            assert!((student_95(degrees) / tabulated - 1.0).abs() < 2e-3, "{degrees}");
+            assert!(
+                (student_95(degrees) / tabulated - 1.0).abs() < 2e-3,
+                "{degrees}"
+            );
         }
         assert!((student_95(1_000_000) - NORMAL_95).abs() < 1e-5);
     }

@@ -112,11 +112,22 @@ fn half_width(vertices: &[(f64, f64)], mean_force: f64) -> Option<f64> {
     let mut falling = Vec::new();
     let mut rising = Vec::new();
     let closing = [vertices[vertices.len() - 1], vertices[0]];
+    let height = vertices
+        .iter()
+        .map(|v| (v.1 - mean_force).abs())
+        .fold(0.0, f64::max);
+    let least = 1e-9 * height;
     for pair in vertices.windows(2).chain(closing.windows(2)) {
         let ((u, f), (next_u, next_f)) = (pair[0], pair[1]);
-        if (f - mean_force) * (next_f - mean_force) <= 0.0 && f != next_f {
+        let (before, after) = (f - mean_force, next_f - mean_force);
+        // Half-open, so that a sample on the level counts once; the closing segment may be a point.
+        if (before < 0.0) != (after < 0.0) && (next_f - f).abs() > least {
             let at = u + (mean_force - f) / (next_f - f) * (next_u - u);
-            if next_f > f { rising.push(at) } else { falling.push(at) }
+            if next_f > f {
+                rising.push(at)
+            } else {
+                falling.push(at)
+            }
         }
     }
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
@@ -129,6 +140,7 @@ fn half_width(vertices: &[(f64, f64)], mean_force: f64) -> Option<f64> {
 /// of the cycle on either side does not. At a sharp (triangular) peak the parabola does not fit,
 /// and the sample itself is taken.
 fn peaks(part: &[f64]) -> (f64, f64) {
+    let mid = part.iter().sum::<f64>() / part.len() as f64;
     let extreme = |sign: f64| {
         let at = (0..part.len())
             .max_by(|&a, &b| (sign * part[a]).total_cmp(&(sign * part[b])))
@@ -138,7 +150,8 @@ fn peaks(part: &[f64]) -> (f64, f64) {
             let n = part.len() as isize;
             part[((at as isize + offset).rem_euclid(n)) as usize]
         };
-        vertex(reach, &periodic, sample_noise(part)).unwrap_or(part[at])
+        let sine_misfit = 2e-5 * (sign * part[at] - mid * sign).abs();
+        vertex(reach, &periodic, 3.0 * sample_noise(part) + sine_misfit).unwrap_or(part[at])
     };
     (extreme(-1.0), extreme(1.0))
 }
@@ -153,8 +166,8 @@ fn sample_noise(part: &[f64]) -> f64 {
 }
 
 /// Extreme value of the least squares parabola through samples −reach … reach; `None` where it
-/// misses the samples by more than three times their noise.
-fn vertex(reach: usize, sample: &dyn Fn(isize) -> f64, noise: f64) -> Option<f64> {
+/// misses the samples by more than `allowed` (rms).
+fn vertex(reach: usize, sample: &dyn Fn(isize) -> f64, allowed: f64) -> Option<f64> {
     let reach = reach as isize;
     let (mut s2, mut s4) = (0.0, 0.0);
     let (mut y0, mut y1, mut y2) = (0.0, 0.0, 0.0);
@@ -177,7 +190,7 @@ fn vertex(reach: usize, sample: &dyn Fn(isize) -> f64, noise: f64) -> Option<f64
         })
         .sum::<f64>();
     let at = -tilt / (2.0 * curvature);
-    let fits = (misfit / n).sqrt() <= 3.0 * noise;
+    let fits = (misfit / n).sqrt() <= allowed;
     (fits && at.abs() <= reach as f64).then(|| level - tilt * tilt / (4.0 * curvature))
 }
 

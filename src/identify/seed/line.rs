@@ -33,7 +33,11 @@ pub fn line(x: &[f64], y: &[f64], weight: &[f64]) -> Option<Line> {
     let misfit = sum(&|i| (y[i] - my - slope * (x[i] - mx)).powi(2));
     let degrees = x.len() - 2;
     let factor = student_95(degrees);
-    let variance = if degrees > 0 { misfit / degrees as f64 } else { 0.0 };
+    let variance = if degrees > 0 {
+        misfit / degrees as f64
+    } else {
+        0.0
+    };
     let width = |unit_variance: f64| {
         if degrees > 0 {
             factor * (variance * unit_variance).sqrt()
@@ -76,7 +80,10 @@ pub fn slope_drift(x: &[f64], y: &[f64], weight: &[f64]) -> Option<(f64, f64)> {
     let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let low = x.iter().copied().fold(f64::INFINITY, f64::min);
     let range = 2.0 * (high - low);
-    Some((quadratic * range, student_95(degrees) * variance.sqrt() * range))
+    Some((
+        quadratic * range,
+        student_95(degrees) * variance.sqrt() * range,
+    ))
 }
 
 #[cfg(test)]
