@@ -40,7 +40,7 @@ pub fn series_stiffness(levels: &[Level], exponent: f64, used: usize) -> Option<
         .fold(0.0, f64::max);
     Some(Stiffness {
         series: Estimated::logarithmic(
-            "series_stiffness",
+            "joint_stiffness",
             "K_1 K_T/(K_1+K_T)",
             "N/m",
             1.0 / compliance,
