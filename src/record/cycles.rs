@@ -38,11 +38,17 @@ pub fn cycles(channel: &[f64]) -> Vec<Cycle> {
         return Vec::new();
     }
     let mut starts = Vec::new();
-    // Every rising half between two turning points crosses its own mid value once.
-    for pair in turns.windows(2) {
+    // A rising half is cut at the mid value of the falling half behind it: a half that changes the
+    // level, or the first one from rest, has another mid value than the cycles it belongs to.
+    for (k, pair) in turns.windows(2).enumerate() {
         let (from, to) = (pair[0], pair[1]);
         if channel[to] > channel[from] {
-            let mid = 0.5 * (channel[to] + channel[from]);
+            let mid = match (turns.get(k + 2), k.checked_sub(1)) {
+                (Some(&behind), _) => 0.5 * (channel[to] + channel[behind]),
+                (None, Some(before)) => 0.5 * (channel[turns[before]] + channel[from]),
+                (None, None) => 0.5 * (channel[from] + channel[to]),
+            }
+            .max(channel[from]);
             if let Some(at) = (from..to).find(|&i| channel[i] <= mid && channel[i + 1] > mid) {
                 starts.push(at + 1);
             }

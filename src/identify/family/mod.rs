@@ -22,7 +22,7 @@ use uncertainty::{EXPONENT_RANGE, Uncertainty};
 
 /// Why no family could be fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FitError {
+pub enum FamilyError {
     /// Too little to fit.
     #[error("{samples} samples are too few to fit a joint: at least {least} are needed")]
     TooShort {
@@ -43,7 +43,7 @@ pub enum FitError {
 
 /// A fitted joint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
+pub struct FamilyFit {
     /// Prescribed channel; the other is judged.
     pub drive: Drive,
     /// The family's coordinates at the best fit.
@@ -88,9 +88,9 @@ pub fn drive_for(seed: &Seed) -> Drive {
 /// reach full slip, β as zero; both are then said.
 ///
 /// # Errors
-/// [`FitError`]. Checked in tests/identification.rs on noise-free records of an independent
+/// [`FamilyError`]. Checked in tests/identification.rs on noise-free records of an independent
 /// generator: ϑ to 0.5 %, χ to 0.01, joint stiffness to 0.1 %.
-pub fn fit(records: &[&Record], seed: &Seed, drive: Drive) -> Result<Fit, FitError> {
+pub fn fit(records: &[&Record], seed: &Seed, drive: Drive) -> Result<FamilyFit, FamilyError> {
     let initial = seed.stiffness.as_ref().map(|s| s.series.value);
     fit_target(&Target::of_records(records, drive), initial)
 }
@@ -99,8 +99,12 @@ pub fn fit(records: &[&Record], seed: &Seed, drive: Drive) -> Result<Fit, FitErr
 /// baseline, say, without the effects found beside it.
 ///
 /// # Errors
-/// [`FitError`].
-pub fn fit_curve(displacement: &[f64], force: &[f64], drive: Drive) -> Result<Fit, FitError> {
+/// [`FamilyError`].
+pub fn fit_curve(
+    displacement: &[f64],
+    force: &[f64],
+    drive: Drive,
+) -> Result<FamilyFit, FamilyError> {
     let first = displacement.iter().zip(force).find(|(u, _)| **u > 0.0);
     fit_target(
         &Target::of_curve(displacement, force, drive),
@@ -108,19 +112,19 @@ pub fn fit_curve(displacement: &[f64], force: &[f64], drive: Drive) -> Result<Fi
     )
 }
 
-fn fit_target(target: &Target, initial: Option<f64>) -> Result<Fit, FitError> {
+fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, FamilyError> {
     let samples = target.respond(&|_| 0.0).iter().map(Vec::len).sum();
     if samples < LEAST_SAMPLES {
-        return Err(FitError::TooShort {
+        return Err(FamilyError::TooShort {
             samples,
             least: LEAST_SAMPLES,
         });
     }
     let starts = start::starts(target, initial);
     let free_all = [None, None];
-    let best = best_of(target, &different(&starts), free_all).ok_or(FitError::NoJoint)?;
+    let best = best_of(target, &different(&starts), free_all).ok_or(FamilyError::NoJoint)?;
     let shape = best.shape;
-    let known = uncertainty(target, &best).ok_or(FitError::NoJoint)?;
+    let known = uncertainty(target, &best).ok_or(FamilyError::NoJoint)?;
     let split_told = known.knows_share(NETWORK_SHARE);
     let slip_told = known.knows_share(LAST_SHARE);
     if split_told && slip_told {
@@ -228,11 +232,11 @@ fn concluded(
     known: Uncertainty,
     split_told: bool,
     slip_told: bool,
-) -> Result<Fit, FitError> {
+) -> Result<FamilyFit, FamilyError> {
     let Best { shape, minimum } = best;
     let samples = minimum.residual.len();
     let relative_rms = (minimum.misfit() / samples as f64).sqrt();
-    let mut fit = Fit {
+    let mut fit = FamilyFit {
         drive: target.drive(),
         shape,
         joint: joint(&shape, slip_told)?,
@@ -269,7 +273,7 @@ fn joint(shape: &Shape, slip_told: bool) -> Result<Joint, JointError> {
 
 fn not_identifiable(
     target: &Target,
-    fit: &Fit,
+    fit: &FamilyFit,
     known: &Uncertainty,
     split_told: bool,
     slip_told: bool,
