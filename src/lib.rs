@@ -6,6 +6,8 @@
 
 pub mod causes;
 #[cfg(feature = "tool")]
+pub mod cli;
+#[cfg(feature = "tool")]
 pub mod diagnose;
 #[cfg(feature = "tool")]
 pub mod identify;
@@ -14,3 +16,4 @@ pub mod joint;
 pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
+pub mod saved;

@@ -176,7 +176,7 @@ impl<'a> Layout<'a> {
                 second: self.spot(second),
                 first: first + 1,
                 first_name: self.name(first),
-                quantity: quantity.name(),
+                quantity,
             }),
         }
     }
@@ -192,7 +192,7 @@ impl<'a> Layout<'a> {
         index.ok_or_else(|| ReadError::NoSuchColumn {
             file: self.source.file.clone(),
             line: self.head.line,
-            quantity: quantity.name(),
+            quantity,
             choice: choice.to_string(),
             found: self.all_names(),
         })
@@ -212,7 +212,7 @@ impl<'a> Layout<'a> {
         let Some(written) = in_cell.or(below).filter(|unit| !unit.is_empty()) else {
             return Err(ReadError::MissingUnit {
                 spot: self.spot(index),
-                quantity: quantity.name(),
+                quantity,
                 example: quantity.example_unit(),
             });
         };
@@ -220,8 +220,7 @@ impl<'a> Layout<'a> {
             spot: self.spot(index),
             unit: written.to_string(),
             measures: unit::measures(written).map(unit::Dimension::name),
-            quantity: quantity.name(),
-            known: unit::known(quantity),
+            quantity,
         })
     }
 }

@@ -7,6 +7,7 @@
 mod error;
 mod head;
 mod layout;
+mod load;
 mod number;
 mod numbers;
 mod options;
@@ -15,11 +16,13 @@ mod source;
 mod unit;
 
 pub use error::{ReadError, Spot};
+pub use load::{LoadTable, load_table};
 pub use options::{Choice, Options};
 pub use quantity::Quantity;
 pub use unit::{Dimension, Unit};
 
 use crate::record::{AmplitudeTable, Measurement, Record};
+use head::Head;
 use layout::Layout;
 use source::Source;
 use std::path::Path;
@@ -31,21 +34,6 @@ pub struct Loaded {
     pub measurement: Measurement,
     /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
-    /// What was assumed, converted or left out, in sentences.
-    pub notes: Vec<String>,
-}
-
-/// A load for a simulation: time and what is prescribed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LoadTable {
-    /// Time \[s\], strictly increasing; `None` where the file has none.
-    pub time: Option<Vec<f64>>,
-    /// Force \[N\], where the file has it.
-    pub force: Option<Vec<f64>>,
-    /// Displacement \[m\], where the file has it; one of both is there.
-    pub displacement: Option<Vec<f64>>,
-    /// Line of the file of each row, to say where a simulation stopped.
-    pub lines: Vec<usize>,
     /// What was assumed, converted or left out, in sentences.
     pub notes: Vec<String>,
 }
@@ -64,10 +52,11 @@ const WITH_AMPLITUDES: [Quantity; 2] = [Quantity::DisplacementAmplitude, Quantit
 /// [`ReadError`], naming file, line, column, value and the way out. Checked by
 /// `tests/reading.rs`.
 pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
-    let mut source = Source::open(path)?;
-    let mut notes = std::mem::take(&mut source.notes);
-    let head = head::find(&source, options)?;
-    notes.extend(head.notes.iter().cloned());
+    let Opened {
+        source,
+        head,
+        mut notes,
+    } = Opened::new(path, options)?;
     let layout = Layout::new(&source, &head, options)?;
     let is_history = layout.has(Quantity::Force) && layout.has(Quantity::Displacement);
     let is_table = layout.has(Quantity::ForceAmplitude) && layout.has(Quantity::Dissipation);
@@ -96,15 +85,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
             frequency: numbers.take(Quantity::Frequency),
         })
     } else {
-        return Err(
-            layout.missing(match (&layout, layout.has(Quantity::Force)) {
-                (layout, _) if layout.has(Quantity::ForceAmplitude) => "dissipation",
-                (layout, _) if layout.has(Quantity::Dissipation) => "force amplitude",
-                (_, true) => "displacement",
-                (layout, false) if layout.has(Quantity::Displacement) => "force",
-                _ => "force and displacement",
-            }),
-        );
+        return Err(layout.missing(wanted(&layout)));
     };
     if let Measurement::History(Record { time: None, .. }) = &measurement {
         notes.push(
@@ -120,28 +101,35 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
     })
 }
 
-/// Reads the load of a simulation: time, and force or displacement or both.
-///
-/// # Errors
-/// As [`file`].
-pub fn load_table(path: &Path, options: &Options) -> Result<LoadTable, ReadError> {
-    let mut source = Source::open(path)?;
-    let mut notes = std::mem::take(&mut source.notes);
-    let head = head::find(&source, options)?;
-    notes.extend(head.notes.iter().cloned());
-    let layout = Layout::new(&source, &head, options)?;
-    let prescribed = [Quantity::Force, Quantity::Displacement];
-    let required: Vec<Quantity> = prescribed.into_iter().filter(|q| layout.has(*q)).collect();
-    if required.is_empty() {
-        return Err(layout.missing("force or displacement"));
+/// What a table lacks that is neither a history nor an amplitude table.
+fn wanted(layout: &Layout) -> &'static str {
+    let has = |quantity| layout.has(quantity);
+    match () {
+        () if has(Quantity::Force) => "displacement",
+        () if has(Quantity::Displacement) => "force",
+        () if has(Quantity::ForceAmplitude) => "dissipation",
+        () if has(Quantity::Dissipation) => "force amplitude",
+        () => "force and displacement",
     }
-    let columns = layout.columns(&required, &[Quantity::Time], &mut notes)?;
-    let mut numbers = numbers::read(&source, &head, &columns)?;
-    Ok(LoadTable {
-        time: numbers.take(Quantity::Time),
-        force: numbers.take(Quantity::Force),
-        displacement: numbers.take(Quantity::Displacement),
-        lines: numbers.lines,
-        notes,
-    })
+}
+
+/// A file whose text and head are known.
+struct Opened {
+    source: Source,
+    head: Head,
+    notes: Vec<String>,
+}
+
+impl Opened {
+    fn new(path: &Path, options: &Options) -> Result<Opened, ReadError> {
+        let mut source = Source::open(path)?;
+        let mut head = head::find(&source, options)?;
+        let mut notes = std::mem::take(&mut source.notes);
+        notes.append(&mut head.notes);
+        Ok(Opened {
+            source,
+            head,
+            notes,
+        })
+    }
 }

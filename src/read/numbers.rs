@@ -165,7 +165,7 @@ impl Place<'_> {
             return Err(ReadError::Negative {
                 spot: self.spot(column),
                 value: cell.trim().to_string(),
-                quantity: column.quantity.name(),
+                quantity: column.quantity,
             });
         }
         match last.filter(|_| column.quantity == Quantity::Time) {
