@@ -1,1 +1,5 @@
-fn main() {}
+//! The binary `iwan`.
+
+fn main() -> std::process::ExitCode {
+    iwan::cli::main()
+}

@@ -1,5 +1,12 @@
 //! The catalogue of named causes: one file each, one line each in [`CATALOGUE`].
 
+mod asymmetric_friction;
+mod clearance;
+mod displacement_drift;
+mod pinning;
+mod preload_loss;
+mod viscous_damping;
+
 use crate::joint::effect::Effect;
 
 /// Whether a cause belongs to the joint (exported) or to the measuring chain (removed).
@@ -28,12 +35,40 @@ pub struct Page {
     pub source: &'static str,
 }
 
+/// Sizes of a record that tell where a search starts. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Largest magnitude of the force \[N\].
+    pub force: f64,
+    /// Largest magnitude of the displacement \[m\].
+    pub displacement: f64,
+    /// Largest rate of the displacement \[m/s\].
+    pub velocity: f64,
+    /// Stiffness of the baseline at small amplitude \[N/m\].
+    pub stiffness: f64,
+    /// Energy the baseline dissipates over the longest record \[J\].
+    pub dissipation: f64,
+    /// Length of the longest record \[s\].
+    pub duration: f64,
+    /// Shortest period of the drive \[s\].
+    pub period: f64,
+    /// Time between samples \[s\].
+    pub step: f64,
+}
+
 /// A named cause: an effect, the page that explains it, and where a search for it starts.
 pub trait Cause: Effect {
     /// The page.
     fn page(&self) -> Page;
     /// This cause as the effect it brings to the simulation.
     fn effect(&self) -> &'static dyn Effect;
+    /// Where a search starts: full sets of values with a small amplitude, one for each shape worth
+    /// trying; the search scales the amplitude itself.
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// True where the cause depends on time, so that a record without time cannot show it.
+    fn needs_time(&self) -> bool {
+        false
+    }
     /// Joint or measuring chain, by the place where it acts.
     fn kind(&self) -> Kind {
         if self.place().is_measurement() {
@@ -45,7 +80,14 @@ pub trait Cause: Effect {
 }
 
 /// Every cause known, in the order of the documentation.
-pub static CATALOGUE: &[&dyn Cause] = &[];
+pub static CATALOGUE: &[&dyn Cause] = &[
+    &viscous_damping::ViscousDamping,
+    &pinning::Pinning,
+    &clearance::Clearance,
+    &asymmetric_friction::AsymmetricFriction,
+    &preload_loss::PreloadLoss,
+    &displacement_drift::DisplacementDrift,
+];
 
 /// The cause of that name.
 pub fn find(name: &str) -> Option<&'static dyn Cause> {

@@ -132,6 +132,12 @@ pub trait Effect: Send + Sync {
     fn in_series(&self, _values: &[f64], _force: f64, _step: f64, _memory: &[f64]) -> Response {
         Response::default()
     }
+    /// Energy the law can give back in an accepted situation, after [`Effect::remember`] \[J\].
+    /// `None` for a law whose value depends on its argument alone: the simulation integrates it.
+    /// A law with creep or other loss of its own says here what it keeps; the rest is dissipated.
+    fn stored_energy(&self, _values: &[f64], _now: &Situation, _memory: &[f64]) -> Option<f64> {
+        None
+    }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
     /// channel it acts on, one number per sample (measured = true + added).
     fn channel(&self, _values: &[f64], truth: &Trajectory) -> Vec<f64> {

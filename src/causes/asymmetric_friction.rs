@@ -1,0 +1,59 @@
+//! `asymmetric_friction`: the slip limit depends on direction.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::parameters::Parameter;
+
+/// Break-free forces larger in one direction, `n± = 1 ± a`.
+pub struct AsymmetricFriction;
+
+static PARAMETERS: [Parameter; 1] = [Parameter {
+    name: "asymmetry",
+    symbol: "a",
+    unit: "1",
+    lower: -0.95,
+    upper: 0.95,
+    vanishes_at: Some(0.0),
+    meaning: "share by which break-free forces are larger towards positive slip and smaller towards negative",
+}];
+
+impl Effect for AsymmetricFriction {
+    fn name(&self) -> &'static str {
+        "asymmetric_friction"
+    }
+    fn place(&self) -> Place {
+        Place::SlipLimit
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn slip_limit(&self, values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
+        SlipLimit {
+            positive: 1.0 + values[0],
+            negative: 1.0 - values[0],
+        }
+    }
+}
+
+impl Cause for AsymmetricFriction {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Wear marks, lay of the surface or a wedge make the interface hold more in one direction than in the other.",
+            sign: "Invisible in symmetric steady loops; the virgin leg, changes of amplitude and loops about a bias shift to one side.",
+            mistaken_for: &[
+                "normal_load_variation",
+                "joint_opening",
+                "displacement_drift",
+            ],
+            separated_by: "Loops about a positive bias against loops about a negative one; a normal load that follows the force gives even harmonics in steady loops, this does not.",
+            formula: "phi_+ = (1 + a) phi, phi_- = (1 - a) phi",
+            source: "Non-Masing extension of Iwan's parallel-series model with direction-dependent yield.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &AsymmetricFriction
+    }
+    fn starts(&self, _scale: &Scale) -> Vec<Vec<f64>> {
+        vec![vec![0.02]]
+    }
+}

@@ -1,0 +1,75 @@
+//! `preload_loss`: friction decays as the interface works.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::parameters::Parameter;
+
+/// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`.
+pub struct PreloadLoss;
+
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "loss",
+        symbol: "l",
+        unit: "1",
+        lower: 0.0,
+        upper: 0.98,
+        vanishes_at: Some(0.0),
+        meaning: "share of the break-free forces that is lost in the end",
+    },
+    Parameter {
+        name: "energy",
+        symbol: "E_0",
+        unit: "J",
+        lower: 1e-15,
+        upper: 1e12,
+        vanishes_at: None,
+        meaning: "dissipated energy over which the loss happens",
+    },
+];
+
+impl Effect for PreloadLoss {
+    fn name(&self) -> &'static str {
+        "preload_loss"
+    }
+    fn place(&self) -> Place {
+        Place::SlipLimit
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
+        let limit = 1.0 + values[0] * (-last.dissipation / values[1]).exp_m1();
+        SlipLimit {
+            positive: limit,
+            negative: limit,
+        }
+    }
+}
+
+impl Cause for PreloadLoss {
+    fn page(&self) -> Page {
+        Page {
+            happens: "The clamped parts embed, wear or the bolt turns loose: normal load falls as the interface works, and all break-free forces with it.",
+            sign: "Loops of the same load grow wider and softer from cycle to cycle and do not come back.",
+            mistaken_for: &[
+                "running_in",
+                "displacement_drift",
+                "offset_step",
+                "slack_growth",
+            ],
+            separated_by: "Repeated equal blocks: drift moves the loop without widening it, running-in settles within the first cycles, slack growth follows new peaks.",
+            formula: "phi = phi_0 [1 - l (1 - exp(-E/E_0))]",
+            source: "Archard wear with the dissipated energy as the measure of work; Fouvry's energy-based wear.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &PreloadLoss
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        [0.1, 0.4, 2.0]
+            .iter()
+            .map(|share| vec![0.02, share * scale.dissipation])
+            .collect()
+    }
+}

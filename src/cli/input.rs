@@ -1,0 +1,95 @@
+//! What several subcommands read, and what they say of it.
+
+use super::BadInput;
+use crate::joint::Joint;
+use crate::read::{self, Loaded, Options, ReadError};
+use std::path::{Path, PathBuf};
+
+/// How to read files whose header does not say what they hold.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Foreign {
+    /// Columns of a foreign file, counted from 1 or by header: `force=2,displacement=1,time=3`
+    #[arg(long, value_name = "QUANTITY=COLUMN,…")]
+    columns: Option<String>,
+    /// Units, where the header has none or wrong ones: `force=kN,displacement=mm`
+    #[arg(long, value_name = "QUANTITY=UNIT,…")]
+    units: Option<String>,
+}
+
+impl Foreign {
+    /// The options taken apart.
+    ///
+    /// # Errors
+    /// [`ReadError::Option`].
+    pub fn options(&self) -> Result<Options, ReadError> {
+        Options::from_arguments(self.columns.as_deref(), self.units.as_deref())
+    }
+}
+
+/// The measured records of one joint.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Records {
+    /// Tests of one joint, a CSV file each: time, force, displacement; or an amplitude table
+    #[arg(required = true, value_name = "RECORD")]
+    pub files: Vec<PathBuf>,
+    /// How to read them.
+    #[command(flatten)]
+    pub foreign: Foreign,
+}
+
+impl Records {
+    /// Reads every file, in order, and says on stderr what was assumed.
+    ///
+    /// # Errors
+    /// [`ReadError`] of the first bad file; [`BadInput`] for one content under two names: a copy
+    /// would count as a second test, and as data that no fit has seen.
+    pub fn load(&self) -> anyhow::Result<Vec<Loaded>> {
+        let options = self.foreign.options()?;
+        let mut loaded: Vec<Loaded> = Vec::new();
+        for file in &self.files {
+            let next = read::file(file, &options)?;
+            if let Some(same) = loaded.iter().position(|other| other.sha256 == next.sha256) {
+                let (file, same) = (file.display(), self.files[same].display());
+                let message = format!("{file}: same content as {same}; give every test once");
+                return Err(BadInput(message).into());
+            }
+            tell_notes(file, &next.notes);
+            loaded.push(next);
+        }
+        Ok(loaded)
+    }
+
+    /// The files as inputs that no output may replace.
+    pub fn paths(&self) -> Vec<&Path> {
+        self.files.iter().map(PathBuf::as_path).collect()
+    }
+}
+
+/// Says on stderr what was assumed while reading a file.
+pub fn tell_notes(file: &Path, notes: &[String]) {
+    for note in notes {
+        eprintln!("{}: {note}", file.display());
+    }
+}
+
+/// Reads a joint.json.
+///
+/// # Errors
+/// [`BadInput`] where there is no such text file, [`crate::saved::SavedError`] with the place
+/// where it holds no joint.
+pub fn joint(file: &Path) -> anyhow::Result<Joint> {
+    let name = file.display().to_string();
+    let refuse = |reason: String| BadInput(format!("{name}: {reason}"));
+    if file.is_dir() {
+        return Err(refuse("this is a folder; name the joint.json in it".to_string()).into());
+    }
+    let bytes = std::fs::read(file).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            refuse("there is no such file; check the name and the folder".to_string())
+        }
+        _ => refuse(format!("cannot be read: {error}")),
+    })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| refuse("this is no joint.json: not a text in UTF-8".to_string()))?;
+    Ok(crate::saved::read(&text, &name)?.joint)
+}

@@ -1,0 +1,402 @@
+//! One pass through a record: every operator, every effect at its place, one scalar equation per
+//! sample. The judged channel it predicts is the simulation, so identification and simulation
+//! cannot disagree.
+
+use super::operators::{Form, Operators};
+use crate::joint::effect::{Acting, Place, Situation, Trajectory};
+
+/// Effects sorted by place, with the history they keep.
+pub struct March<'a> {
+    operators: &'a Operators,
+    coefficients: &'a [f64],
+    effects: &'a [Acting],
+    memories: Vec<Vec<f64>>,
+    positions: Vec<f64>,
+    trial: Vec<f64>,
+    last: Situation,
+    earlier: Option<(f64, f64)>,
+    limits: (f64, f64),
+    has: [bool; 7],
+}
+
+/// What one sample gave.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Step {
+    /// True force [N].
+    pub force: f64,
+    /// True displacement [m].
+    pub displacement: f64,
+    /// d judged / d network output: what a column of the dictionary is worth at this sample.
+    pub share: f64,
+}
+
+fn index(place: Place) -> usize {
+    place as usize
+}
+
+impl<'a> March<'a> {
+    /// A virgin joint with the given coefficients (elastic first, then one per threshold).
+    pub fn new(operators: &'a Operators, coefficients: &'a [f64], effects: &'a [Acting]) -> Self {
+        let mut has = [false; 7];
+        for acting in effects {
+            has[index(acting.effect.place())] = true;
+        }
+        March {
+            operators,
+            coefficients,
+            effects,
+            memories: effects
+                .iter()
+                .map(|a| vec![0.0; a.effect.memory()])
+                .collect(),
+            positions: vec![0.0; operators.thresholds.len()],
+            trial: vec![0.0; operators.thresholds.len()],
+            last: Situation::default(),
+            earlier: None,
+            limits: (1.0, 1.0),
+            has,
+        }
+    }
+
+    /// Row of the dictionary at the last accepted sample: what the judged channel gains per unit
+    /// of each coefficient, the elastic one first.
+    pub fn row(&self, step: Step, row: &mut [f64]) {
+        row[0] = step.share
+            * match self.operators.form {
+                Form::Play => self.network_force(),
+                Form::Stop => self.last.slip,
+            };
+        for (value, position) in row[1..].iter_mut().zip(&self.positions) {
+            *value = position * step.share;
+        }
+    }
+
+    /// Energy dissipated by the network so far [J].
+    pub fn dissipation(&self) -> f64 {
+        self.last.dissipation
+    }
+
+    fn network_force(&self) -> f64 {
+        self.last.force - self.beside_slip(self.last.slip).0
+    }
+
+    fn beside_slip(&self, slip: f64) -> (f64, f64) {
+        if !self.has[index(Place::BesideSlip)] {
+            return (0.0, 0.0);
+        }
+        let mut sum = (0.0, 0.0);
+        for (acting, memory) in self.effects.iter().zip(&self.memories) {
+            if acting.effect.place() == Place::BesideSlip {
+                let response = acting.effect.beside_slip(&acting.values, slip, memory);
+                sum = (sum.0 + response.value, sum.1 + response.slope);
+            }
+        }
+        sum
+    }
+
+    fn in_path(&self, force: f64, step: f64) -> (f64, f64) {
+        if !self.has[index(Place::Spring)] && !self.has[index(Place::InSeries)] {
+            return (0.0, 0.0);
+        }
+        let mut sum = (0.0, 0.0);
+        for (acting, memory) in self.effects.iter().zip(&self.memories) {
+            let response = match acting.effect.place() {
+                Place::Spring => acting.effect.spring(&acting.values, force),
+                Place::InSeries => acting.effect.in_series(&acting.values, force, step, memory),
+                _ => continue,
+            };
+            sum = (sum.0 + response.value, sum.1 + response.slope);
+        }
+        sum
+    }
+
+    /// Force beside the joint and its slope d/dU at the end of a step.
+    fn beside_joint(&self, displacement: f64, step: f64) -> (f64, f64, f64) {
+        if !self.has[index(Place::BesideJoint)] {
+            return (0.0, 0.0, 0.0);
+        }
+        let (velocity, per_displacement) = self.velocity(displacement, step);
+        let mut sum = (0.0, 0.0);
+        for acting in self.effects {
+            if acting.effect.place() == Place::BesideJoint {
+                let response = acting
+                    .effect
+                    .beside_joint(&acting.values, displacement, velocity);
+                sum = (
+                    sum.0 + response.value,
+                    sum.1 + response.slope + response.damping * per_displacement,
+                );
+            }
+        }
+        (sum.0, sum.1, velocity)
+    }
+
+    /// Backward difference of second order where two earlier samples are known; also d rate / dU.
+    fn velocity(&self, displacement: f64, step: f64) -> (f64, f64) {
+        if step <= 0.0 {
+            return (self.last.velocity, 0.0);
+        }
+        let first = (displacement - self.last.displacement) / step;
+        match self.earlier {
+            Some((before, length)) if length > 0.0 => {
+                let previous = (self.last.displacement - before) / length;
+                let weight = step / (step + length);
+                (first + weight * (first - previous), (1.0 + weight) / step)
+            }
+            _ => (first, 1.0 / step),
+        }
+    }
+
+    /// Network output for a trial input, its tangent, the operators' trial positions.
+    fn network(&mut self, input: f64) -> (f64, f64) {
+        let (positive, negative) = self.limits;
+        let mut output = self.coefficients[0] * input;
+        let mut tangent = self.coefficients[0];
+        match self.operators.form {
+            Form::Play => {
+                for (((trial, &position), &r), &c) in self
+                    .trial
+                    .iter_mut()
+                    .zip(&self.positions)
+                    .zip(&self.operators.thresholds)
+                    .zip(&self.coefficients[1..])
+                {
+                    let low = input - r * positive;
+                    let high = input + r * negative;
+                    let moved = position < low || position > high;
+                    *trial = position.max(low).min(high);
+                    output += c * *trial;
+                    tangent += if moved { c } else { 0.0 };
+                }
+            }
+            Form::Stop => {
+                let increment = input - self.last.slip;
+                for (((trial, &position), &d), &w) in self
+                    .trial
+                    .iter_mut()
+                    .zip(&self.positions)
+                    .zip(&self.operators.thresholds)
+                    .zip(&self.coefficients[1..])
+                {
+                    let elastic = position + increment;
+                    let held = elastic.max(-d * negative).min(d * positive);
+                    *trial = held;
+                    output += w * held;
+                    tangent += if held == elastic { w } else { 0.0 };
+                }
+            }
+        }
+        (output, tangent)
+    }
+
+    /// Takes one sample: the true input channel of the form, force [N] or displacement [m].
+    pub fn step(&mut self, time: f64, step: f64, input: f64) -> Step {
+        self.update_limits();
+        match self.operators.form {
+            Form::Play => self.step_force(time, step, input),
+            Form::Stop => self.step_displacement(time, step, input),
+        }
+    }
+
+    fn update_limits(&mut self) {
+        if !self.has[index(Place::SlipLimit)] {
+            return;
+        }
+        let mut limits = (1.0, 1.0);
+        for (acting, memory) in self.effects.iter().zip(&self.memories) {
+            if acting.effect.place() == Place::SlipLimit {
+                let limit = acting.effect.slip_limit(&acting.values, &self.last, memory);
+                limits = (limits.0 * limit.positive, limits.1 * limit.negative);
+            }
+        }
+        self.limits = limits;
+    }
+
+    fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
+        let parallel = self.has[index(Place::BesideSlip)] || self.has[index(Place::BesideJoint)];
+        let mut trial = if parallel {
+            self.network_force() + (force - self.last_applied(step))
+        } else {
+            force
+        };
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut answer;
+        let mut round = 0;
+        loop {
+            let (slip, tangent) = self.network(trial);
+            let (beside, beside_slope) = self.beside_slip(slip);
+            let joint_force = trial + beside;
+            let joint_slope = 1.0 + beside_slope * tangent;
+            let (path, path_slope) = self.in_path(joint_force, step);
+            let displacement = slip + path;
+            let displacement_slope = tangent + path_slope * joint_slope;
+            let (across, across_slope, velocity) = self.beside_joint(displacement, step);
+            let error = joint_force + across - force;
+            let slope = joint_slope + across_slope * displacement_slope;
+            answer = (slip, joint_force, displacement, velocity);
+            let share = (1.0 / slope).clamp(0.0, 1.0);
+            if !parallel
+                || error.abs() <= 1e-12 * (force.abs() + self.last.force.abs())
+                || round >= 60
+            {
+                self.accept(time, step, answer);
+                return Step {
+                    force,
+                    displacement,
+                    share,
+                };
+            }
+            if error > 0.0 {
+                high = high.min(trial);
+            } else {
+                low = low.max(trial);
+            }
+            let mut next = trial - error / slope;
+            if !(next > low && next < high) {
+                next = if low.is_finite() && high.is_finite() {
+                    0.5 * (low + high)
+                } else {
+                    trial - 2.0 * error
+                };
+            }
+            if next == trial {
+                round = 60;
+            }
+            trial = next;
+            round += 1;
+        }
+    }
+
+    fn last_applied(&self, step: f64) -> f64 {
+        let _ = step;
+        let mut across = 0.0;
+        if self.has[index(Place::BesideJoint)] {
+            for acting in self.effects {
+                if acting.effect.place() == Place::BesideJoint {
+                    across += acting
+                        .effect
+                        .beside_joint(&acting.values, self.last.displacement, self.last.velocity)
+                        .value;
+                }
+            }
+        }
+        self.last.force + across
+    }
+
+    fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
+        let path_acts = self.has[index(Place::Spring)] || self.has[index(Place::InSeries)];
+        let mut trial = self.last.slip + if path_acts { 0.0 } else { displacement };
+        if !path_acts {
+            trial = displacement;
+        }
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut round = 0;
+        loop {
+            let (network, tangent) = self.network(trial);
+            let (beside, beside_slope) = self.beside_slip(trial);
+            let joint_force = network + beside;
+            let joint_slope = tangent + beside_slope;
+            let (path, path_slope) = self.in_path(joint_force, step);
+            let error = trial + path - displacement;
+            let slope = 1.0 + path_slope * joint_slope;
+            if !path_acts || error.abs() <= 1e-13 * displacement.abs() || round >= 60 {
+                let (across, across_slope, velocity) = self.beside_joint(displacement, step);
+                let _ = across_slope;
+                self.accept(time, step, (trial, joint_force, displacement, velocity));
+                let share = (1.0 / slope).clamp(0.0, 1.0);
+                return Step {
+                    force: joint_force + across,
+                    displacement,
+                    share,
+                };
+            }
+            if error > 0.0 {
+                high = high.min(trial);
+            } else {
+                low = low.max(trial);
+            }
+            let mut next = trial - error / slope;
+            if !(next > low && next < high) {
+                next = if low.is_finite() && high.is_finite() {
+                    0.5 * (low + high)
+                } else {
+                    trial - error
+                };
+            }
+            if next == trial {
+                round = 60;
+            }
+            trial = next;
+            round += 1;
+        }
+    }
+
+    fn accept(&mut self, time: f64, step: f64, answer: (f64, f64, f64, f64)) {
+        let (slip, force, displacement, velocity) = answer;
+        let mut dissipated = 0.0;
+        let (positive, negative) = self.limits;
+        for ((&trial, &position), (&threshold, &c)) in self.trial.iter().zip(&self.positions).zip(
+            self.operators
+                .thresholds
+                .iter()
+                .zip(&self.coefficients[1..]),
+        ) {
+            dissipated += match self.operators.form {
+                Form::Play => {
+                    let moved = trial - position;
+                    c * threshold
+                        * if moved > 0.0 {
+                            moved * positive
+                        } else {
+                            -moved * negative
+                        }
+                }
+                Form::Stop => {
+                    let slid = slip - self.last.slip - (trial - position);
+                    c * trial * slid
+                }
+            };
+        }
+        std::mem::swap(&mut self.positions, &mut self.trial);
+        let slip_rate = if step > 0.0 {
+            (slip - self.last.slip) / step
+        } else {
+            0.0
+        };
+        let rate = if velocity != 0.0 || step <= 0.0 {
+            velocity
+        } else {
+            (displacement - self.last.displacement) / step
+        };
+        self.earlier = (step > 0.0).then_some((self.last.displacement, step));
+        self.last = Situation {
+            time,
+            step,
+            force,
+            displacement,
+            velocity: rate,
+            slip,
+            slip_rate,
+            dissipation: self.last.dissipation + dissipated.max(0.0),
+        };
+        for (acting, memory) in self.effects.iter().zip(&mut self.memories) {
+            acting.effect.remember(&acting.values, &self.last, memory);
+        }
+    }
+}
+
+/// What the effects at one channel add to the truth, summed.
+pub fn added(effects: &[Acting], place: Place, truth: &Trajectory) -> Option<Vec<f64>> {
+    let mut sum: Option<Vec<f64>> = None;
+    for acting in effects.iter().filter(|a| a.effect.place() == place) {
+        let one = acting.effect.channel(&acting.values, truth);
+        sum = Some(match sum {
+            None => one,
+            Some(mut all) => {
+                all.iter_mut().zip(&one).for_each(|(a, b)| *a += b);
+                all
+            }
+        });
+    }
+    sum
+}

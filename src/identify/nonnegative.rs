@@ -1,0 +1,309 @@
+//! Non-negative least squares on normal equations, with free unknowns beside the bounded ones.
+
+/// Normal equations `A x = b` of a weighted least-squares problem; `A` symmetric, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Normal {
+    /// Count of unknowns.
+    pub size: usize,
+    /// `XᵀX`, `size × size`, both triangles filled.
+    pub gram: Vec<f64>,
+    /// `Xᵀy`.
+    pub right: Vec<f64>,
+    /// `yᵀy`.
+    pub square: f64,
+    /// Count of rows that went in.
+    pub rows: f64,
+}
+
+impl Normal {
+    /// Empty equations for `size` unknowns.
+    pub fn new(size: usize) -> Normal {
+        Normal {
+            size,
+            gram: vec![0.0; size * size],
+            right: vec![0.0; size],
+            square: 0.0,
+            rows: 0.0,
+        }
+    }
+
+    /// Adds one weighted row; only the upper triangle is kept until [`Normal::mirror`].
+    #[inline]
+    pub fn add(&mut self, row: &[f64], target: f64) {
+        let n = self.size;
+        for (i, &value) in row.iter().enumerate() {
+            if value != 0.0 {
+                let line = &mut self.gram[i * n + i..(i + 1) * n];
+                for (sum, &other) in line.iter_mut().zip(&row[i..]) {
+                    *sum += value * other;
+                }
+                self.right[i] += value * target;
+            }
+        }
+        self.square += target * target;
+        self.rows += 1.0;
+    }
+
+    /// Adds other equations for the same unknowns.
+    pub fn merge(&mut self, other: &Normal) {
+        for (sum, value) in self.gram.iter_mut().zip(&other.gram) {
+            *sum += value;
+        }
+        for (sum, value) in self.right.iter_mut().zip(&other.right) {
+            *sum += value;
+        }
+        self.square += other.square;
+        self.rows += other.rows;
+    }
+
+    /// Fills the lower triangle.
+    pub fn mirror(&mut self) {
+        for i in 0..self.size {
+            for j in 0..i {
+                self.gram[i * self.size + j] = self.gram[j * self.size + i];
+            }
+        }
+    }
+
+    /// Sum of squared residuals at `x`.
+    pub fn misfit(&self, x: &[f64]) -> f64 {
+        let mut sum = self.square;
+        for i in 0..self.size {
+            let line = &self.gram[i * self.size..(i + 1) * self.size];
+            let product: f64 = line.iter().zip(x).map(|(a, b)| a * b).sum();
+            sum += x[i] * (product - 2.0 * self.right[i]);
+        }
+        sum.max(0.0)
+    }
+
+    /// Minimises the sum of squares with `x_j ≥ 0` wherever `bounded[j]` (Lawson and Hanson's
+    /// active set on normal equations; free unknowns are always in the passive set).
+    ///
+    /// Ends at a point that satisfies the Karush–Kuhn–Tucker conditions to rounding, checked by the
+    /// tests below.
+    pub fn solve(&self, bounded: &[bool]) -> Vec<f64> {
+        let n = self.size;
+        let scale = self.scale();
+        let mut x = vec![0.0; n];
+        let mut passive: Vec<bool> = (0..n).map(|i| !bounded[i] && scale[i] > 0.0).collect();
+        let tolerance = 1e-11 * self.square.sqrt();
+        self.settle(&mut x, &mut passive, bounded, &scale);
+        for _ in 0..4 * n {
+            let gradient = |i: usize| -> f64 {
+                let line = &self.gram[i * n..(i + 1) * n];
+                let product: f64 = line.iter().zip(&x).map(|(a, b)| a * b).sum();
+                (self.right[i] - product) * scale[i]
+            };
+            let best = (0..n)
+                .filter(|&i| bounded[i] && !passive[i] && scale[i] > 0.0)
+                .map(|i| (i, gradient(i)))
+                .max_by(|a, b| a.1.total_cmp(&b.1));
+            match best {
+                Some((i, slope)) if slope > tolerance => {
+                    passive[i] = true;
+                    let before = x.clone();
+                    self.settle(&mut x, &mut passive, bounded, &scale);
+                    if x == before {
+                        break;
+                    }
+                }
+                _ => break,
+            }
+        }
+        x
+    }
+
+    /// Solves on the passive set, stepping back to the boundary whenever a bounded unknown would
+    /// turn negative.
+    fn settle(&self, x: &mut [f64], passive: &mut [bool], bounded: &[bool], scale: &[f64]) {
+        loop {
+            let members: Vec<usize> = (0..self.size).filter(|&i| passive[i]).collect();
+            let Some(trial) = self.solve_members(&members, scale) else {
+                return;
+            };
+            let mut step = 1.0_f64;
+            for (&i, &value) in members.iter().zip(&trial) {
+                if bounded[i] && value <= 0.0 {
+                    let fraction = x[i] / (x[i] - value);
+                    step = step.min(if fraction.is_finite() { fraction } else { 0.0 });
+                }
+            }
+            for (&i, &value) in members.iter().zip(&trial) {
+                x[i] += step * (value - x[i]);
+            }
+            if step >= 1.0 {
+                return;
+            }
+            for (&i, &value) in members.iter().zip(&trial) {
+                if bounded[i] && value <= 0.0 && x[i] <= 1e-14 * value.abs() {
+                    x[i] = 0.0;
+                    passive[i] = false;
+                }
+            }
+        }
+    }
+
+    /// Cholesky solution over the given unknowns, each scaled to unit diagonal.
+    fn solve_members(&self, members: &[usize], scale: &[f64]) -> Option<Vec<f64>> {
+        let m = members.len();
+        let mut factor = vec![0.0; m * m];
+        for (a, &i) in members.iter().enumerate() {
+            for (b, &j) in members.iter().enumerate().take(a + 1) {
+                let mut sum = self.gram[i * self.size + j] * scale[i] * scale[j];
+                if a == b {
+                    // Far below what the data resolve, so that nearly equal columns cannot break it.
+                    sum += 1e-12;
+                }
+                for k in 0..b {
+                    sum -= factor[a * m + k] * factor[b * m + k];
+                }
+                if a == b {
+                    factor[a * m + a] = sum.max(1e-13).sqrt();
+                } else {
+                    factor[a * m + b] = sum / factor[b * m + b];
+                }
+            }
+        }
+        let mut solution: Vec<f64> = members.iter().map(|&i| self.right[i] * scale[i]).collect();
+        for a in 0..m {
+            for k in 0..a {
+                solution[a] -= factor[a * m + k] * solution[k];
+            }
+            solution[a] /= factor[a * m + a];
+        }
+        for a in (0..m).rev() {
+            for k in a + 1..m {
+                solution[a] -= factor[k * m + a] * solution[k];
+            }
+            solution[a] /= factor[a * m + a];
+        }
+        if solution.iter().any(|v| !v.is_finite()) {
+            return None;
+        }
+        Some(
+            solution
+                .iter()
+                .zip(members)
+                .map(|(v, &i)| v * scale[i])
+                .collect(),
+        )
+    }
+
+    /// For another column with the given inner products `cross`: how much of its own square and of
+    /// its product with the target the given unknowns account for, `(vᵀA⁻¹v, vᵀA⁻¹b)`.
+    pub fn project(&self, members: &[usize], cross: &[f64]) -> Option<(f64, f64)> {
+        let mut other = Normal {
+            right: cross.to_vec(),
+            ..self.clone()
+        };
+        other.square = 0.0;
+        let solution = other.solve_members(members, &self.scale())?;
+        let explained = members
+            .iter()
+            .zip(&solution)
+            .map(|(&i, v)| v * cross[i])
+            .sum();
+        let along = members
+            .iter()
+            .zip(&solution)
+            .map(|(&i, v)| v * self.right[i])
+            .sum();
+        Some((explained, along))
+    }
+
+    /// One over the root of the diagonal; zero where a column is empty.
+    fn scale(&self) -> Vec<f64> {
+        (0..self.size)
+            .map(|i| {
+                let diagonal = self.gram[i * self.size + i];
+                if diagonal > 0.0 {
+                    diagonal.sqrt().recip()
+                } else {
+                    0.0
+                }
+            })
+            .collect()
+    }
+
+    /// Diagonal of the inverse over the given unknowns: variances in units of the noise variance.
+    pub fn variances(&self, members: &[usize]) -> Vec<f64> {
+        let scale = self.scale();
+        members
+            .iter()
+            .enumerate()
+            .map(|(k, &i)| {
+                let mut unit = self.clone();
+                unit.right = vec![0.0; self.size];
+                unit.right[i] = 1.0;
+                unit.solve_members(members, &scale)
+                    .map_or(f64::INFINITY, |column| column[k])
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn equations(rows: &[([f64; 3], f64)]) -> Normal {
+        let mut normal = Normal::new(3);
+        for (row, target) in rows {
+            normal.add(row, *target);
+        }
+        normal.mirror();
+        normal
+    }
+
+    #[test]
+    fn an_interior_solution_is_the_least_squares_one() {
+        let normal = equations(&[
+            ([1.0, 0.0, 0.0], 1.0),
+            ([0.0, 1.0, 0.0], 2.0),
+            ([0.0, 0.0, 1.0], 3.0),
+            ([1.0, 1.0, 1.0], 6.0),
+        ]);
+        let x = normal.solve(&[true, true, true]);
+        for (value, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((value - expected).abs() < 1e-9);
+        }
+        assert!(normal.misfit(&x) < 1e-12);
+    }
+
+    #[test]
+    fn optimality_conditions_hold_on_random_problems() {
+        let mut seed = 12345_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        for _ in 0..50 {
+            let mut normal = Normal::new(8);
+            for _ in 0..30 {
+                let row: Vec<f64> = (0..8).map(|_| random()).collect();
+                let target = random();
+                normal.add(&row, target);
+            }
+            normal.mirror();
+            let bounded = [true, true, true, true, true, true, false, false];
+            let x = normal.solve(&bounded);
+            for i in 0..8 {
+                let line = &normal.gram[i * 8..(i + 1) * 8];
+                let gradient: f64 =
+                    line.iter().zip(&x).map(|(a, b)| a * b).sum::<f64>() - normal.right[i];
+                if bounded[i] {
+                    assert!(
+                        x[i] >= 0.0 && gradient > -1e-8,
+                        "x {} gradient {gradient}",
+                        x[i]
+                    );
+                    assert!((x[i] * gradient).abs() < 1e-8);
+                } else {
+                    assert!(gradient.abs() < 1e-8);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Records prepared for identification: one judged channel, weights, whitening, one common grid.
+
+use super::march::{March, Step, added};
+use super::operators::{Form, Operators};
+use crate::joint::effect::{Acting, Place, Trajectory};
+use crate::record::Record;
+
+/// One record as the fit sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prepared {
+    /// The record's name.
+    pub name: String,
+    /// Time \[s\], or sample numbers.
+    pub time: Vec<f64>,
+    /// Length of the step that ends at each sample; zero at the first.
+    pub steps: Vec<f64>,
+    /// Measured force \[N\].
+    pub force: Vec<f64>,
+    /// Measured displacement \[m\].
+    pub displacement: Vec<f64>,
+    /// One over the noise's innovation at each sample; zero keeps a sample out of the fit.
+    pub weight: Vec<f64>,
+    /// Correlation of neighbouring noise samples, removed from rows before they are summed.
+    pub autoregression: f64,
+}
+
+impl Prepared {
+    /// Every sample with unit weight, white.
+    pub fn new(record: &Record) -> Prepared {
+        let time = record.clock();
+        let mut steps = vec![0.0; time.len()];
+        for i in 1..time.len() {
+            steps[i] = time[i] - time[i - 1];
+        }
+        Prepared {
+            name: record.name.clone(),
+            steps,
+            force: record.force.clone(),
+            displacement: record.displacement.clone(),
+            weight: vec![1.0; time.len()],
+            autoregression: 0.0,
+            time,
+        }
+    }
+}
+
+/// All records of one joint, judged in one form on one grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// Form and thresholds.
+    pub operators: Operators,
+    /// The records.
+    pub records: Vec<Prepared>,
+}
+
+/// Prediction of one record by one model, without the record's offset.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Prediction {
+    /// Judged channel, measuring chain included.
+    pub judged: Vec<f64>,
+    /// True force and displacement behind it.
+    pub truth: Trajectory,
+}
+
+impl Problem {
+    /// Prepares records; the grid covers the largest input of any of them.
+    pub fn new(form: Form, records: &[Record]) -> Problem {
+        let prepared: Vec<Prepared> = records.iter().map(Prepared::new).collect();
+        let range = prepared
+            .iter()
+            .flat_map(|p| match form {
+                Form::Play => &p.force,
+                Form::Stop => &p.displacement,
+            })
+            .fold(0.0_f64, |a, &b| a.max(b.abs()));
+        Problem {
+            operators: Operators::grid(form, range),
+            records: prepared,
+        }
+    }
+
+    /// Measured input and measured judged channel of record `k`.
+    pub fn channels(&self, k: usize) -> (&[f64], &[f64]) {
+        let record = &self.records[k];
+        match self.operators.form {
+            Form::Play => (&record.force, &record.displacement),
+            Form::Stop => (&record.displacement, &record.force),
+        }
+    }
+
+    /// Marches through record `k`; `each` sees every accepted sample of the final pass.
+    ///
+    /// An effect on the input's own channel needs the truth to be corrected, so such a pass is
+    /// repeated from the truth of the one before it; the correction is small against the input and
+    /// the repetition contracts.
+    pub fn pass(
+        &self,
+        k: usize,
+        coefficients: &[f64],
+        effects: &[Acting],
+        mut each: impl FnMut(usize, &March, Step),
+    ) -> Prediction {
+        let record = &self.records[k];
+        let (measured, _) = self.channels(k);
+        let (input_place, judged_place) = match self.operators.form {
+            Form::Play => (Place::ForceChannel, Place::DisplacementChannel),
+            Form::Stop => (Place::DisplacementChannel, Place::ForceChannel),
+        };
+        let corrected = effects.iter().any(|a| a.effect.place() == input_place);
+        let mut input = measured.to_vec();
+        let rounds = if corrected { 3 } else { 1 };
+        let mut truth = Trajectory {
+            time: record.time.clone(),
+            force: record.force.clone(),
+            displacement: record.displacement.clone(),
+        };
+        for round in 0..rounds {
+            let mut march = March::new(&self.operators, coefficients, effects);
+            for i in 0..measured.len() {
+                let step = march.step(record.time[i], record.steps[i], input[i]);
+                truth.force[i] = step.force;
+                truth.displacement[i] = step.displacement;
+                if round + 1 == rounds {
+                    each(i, &march, step);
+                }
+            }
+            if round + 1 < rounds
+                && let Some(added) = added(effects, input_place, &truth)
+            {
+                for ((x, m), a) in input.iter_mut().zip(measured).zip(&added) {
+                    *x = m - a;
+                }
+            }
+        }
+        let mut judged = match self.operators.form {
+            Form::Play => truth.displacement.clone(),
+            Form::Stop => truth.force.clone(),
+        };
+        if let Some(added) = added(effects, judged_place, &truth) {
+            judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
+        }
+        Prediction { judged, truth }
+    }
+
+    /// Predictions of every record.
+    pub fn predict(&self, coefficients: &[f64], effects: &[Acting]) -> Vec<Prediction> {
+        (0..self.records.len())
+            .map(|k| self.pass(k, coefficients, effects, |_, _, _| {}))
+            .collect()
+    }
+
+    /// Whitened sum of squares of measured − predicted with each record's best offset, and those
+    /// offsets.
+    pub fn misfit(&self, predictions: &[Prediction]) -> (f64, Vec<f64>) {
+        let mut total = 0.0;
+        let mut offsets = Vec::with_capacity(predictions.len());
+        for (k, prediction) in predictions.iter().enumerate() {
+            let (_, measured) = self.channels(k);
+            let record = &self.records[k];
+            let (mut squares, mut product, mut norm) = (0.0, 0.0, 0.0);
+            let mut before = None;
+            for ((&y, &p), &w) in measured.iter().zip(&prediction.judged).zip(&record.weight) {
+                let residual = y - p;
+                let (z, one) = whiten(record.autoregression, residual, before);
+                before = Some(residual);
+                squares += (w * z).powi(2);
+                product += w * w * z * one;
+                norm += (w * one).powi(2);
+            }
+            let offset = if norm > 0.0 { product / norm } else { 0.0 };
+            total += (squares - offset * product).max(0.0);
+            offsets.push(offset);
+        }
+        (total, offsets)
+    }
+
+    /// Count of samples with weight.
+    pub fn rows(&self) -> usize {
+        self.records
+            .iter()
+            .map(|r| r.weight.iter().filter(|w| **w > 0.0).count())
+            .sum()
+    }
+}
+
+/// Whitens and weighs rows of one record, sample after sample.
+pub struct Weighing<'a> {
+    record: &'a Prepared,
+    before: Vec<f64>,
+    white: Vec<f64>,
+}
+
+impl<'a> Weighing<'a> {
+    /// For rows of `size` numbers.
+    pub fn new(record: &'a Prepared, size: usize) -> Self {
+        Weighing {
+            record,
+            before: vec![0.0; size],
+            white: vec![0.0; size],
+        }
+    }
+
+    /// The whitened, weighted row of sample `i`; `None` where the sample has no weight.
+    #[inline]
+    pub fn weigh(&mut self, i: usize, row: &[f64]) -> Option<&[f64]> {
+        let weight = self.record.weight[i];
+        let a = self.record.autoregression;
+        if weight > 0.0 {
+            let (factor, scale) = if i > 0 {
+                (a, weight)
+            } else {
+                (0.0, weight * (1.0 - a * a).max(0.0).sqrt())
+            };
+            for ((z, x), b) in self.white.iter_mut().zip(row).zip(&self.before) {
+                *z = (x - factor * b) * scale;
+            }
+        }
+        self.before.copy_from_slice(row);
+        (weight > 0.0).then_some(&self.white)
+    }
+}
+
+/// Removes first-order autoregression: the whitened value, and what a constant 1 becomes.
+#[inline]
+pub fn whiten(autoregression: f64, value: f64, before: Option<f64>) -> (f64, f64) {
+    match before {
+        Some(before) => (value - autoregression * before, 1.0 - autoregression),
+        None => {
+            let start = (1.0 - autoregression * autoregression).max(0.0).sqrt();
+            (start * value, start)
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The score test: what each effect, still vanishingly small, would take off the misfit when the
+//! baseline is refitted with it. One pass of the dictionary serves a whole batch of effects.
+
+use super::fit::Fit;
+use super::nonnegative::Normal;
+use super::problem::{Problem, Weighing};
+use crate::joint::effect::Acting;
+
+/// The score of one starting shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// The effect at its estimated first-order size, inside its bounds.
+    pub acting: Acting,
+    /// Fall of the whitened sum of squares, to first order; zero where the size that fits lies
+    /// outside the bounds.
+    pub fall: f64,
+}
+
+/// Effects whose columns are held in memory at a time.
+const BATCH: usize = 24;
+
+/// Scores every starting shape against the current model.
+pub fn scores(problem: &Problem, current: &Fit, starts: &[Acting]) -> Vec<Score> {
+    starts
+        .chunks(BATCH)
+        .flat_map(|batch| score_batch(problem, current, batch))
+        .collect()
+}
+
+fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score> {
+    let records = problem.records.len();
+    let columns = problem.operators.columns();
+    let held: usize = current.effects.iter().map(|a| a.values.len()).sum();
+    let size = columns + records + held;
+    let at = problem.predict(&current.coefficients, &current.effects);
+    let derivatives = super::fit::slopes(problem, &current.coefficients, &current.effects, &at);
+    let extras: Vec<Vec<Vec<f64>>> = batch
+        .iter()
+        .map(|acting| {
+            let mut effects = current.effects.clone();
+            effects.push(acting.clone());
+            problem
+                .predict(&current.coefficients, &effects)
+                .iter()
+                .zip(&at)
+                .map(|(a, b)| a.judged.iter().zip(&b.judged).map(|(x, y)| x - y).collect())
+                .collect()
+        })
+        .collect();
+    let mut common = Normal::new(size);
+    let mut cross = vec![vec![0.0; size]; batch.len()];
+    let mut own = vec![(0.0, 0.0); batch.len()];
+    for k in 0..records {
+        let record = &problem.records[k];
+        let (_, measured) = problem.channels(k);
+        let mut weighing = Weighing::new(record, size + batch.len() + 1);
+        let mut row = vec![0.0; size + batch.len() + 1];
+        problem.pass(
+            k,
+            &current.coefficients,
+            &current.effects,
+            |i, march, step| {
+                march.row(step, &mut row[..columns]);
+                row[columns + k] = 1.0;
+                for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
+                    *value = slope.values[k][i];
+                }
+                for (value, extra) in row[size..].iter_mut().zip(&extras) {
+                    *value = extra[k][i];
+                }
+                row[size + batch.len()] = measured[i] - at[k].judged[i] - current.offsets[k];
+                if let Some(white) = weighing.weigh(i, &row) {
+                    let target = white[size + batch.len()];
+                    common.add(&white[..size], target);
+                    for (b, &value) in white[size..size + batch.len()].iter().enumerate() {
+                        for (sum, other) in cross[b].iter_mut().zip(&white[..size]) {
+                            *sum += value * other;
+                        }
+                        own[b] = (own[b].0 + value * value, own[b].1 + value * target);
+                    }
+                }
+            },
+        );
+    }
+    common.mirror();
+    // Unknowns are moves away from the current fit, where the gradient over its positive
+    // coefficients vanishes: only those may move freely, the others stay at zero.
+    let free: Vec<usize> = (0..size)
+        .filter(|&i| i >= columns || current.coefficients[i] > 0.0)
+        .filter(|&i| common.gram[i * size + i] > 0.0)
+        .collect();
+    batch
+        .iter()
+        .enumerate()
+        .map(|(b, acting)| one(acting, &common, &free, &cross[b], own[b]))
+        .collect()
+}
+
+fn one(acting: &Acting, common: &Normal, free: &[usize], cross: &[f64], own: (f64, f64)) -> Score {
+    let nothing = Score {
+        acting: acting.clone(),
+        fall: 0.0,
+    };
+    if own.0 <= 0.0 {
+        return nothing;
+    }
+    let projected = common.project(free, cross);
+    let Some((explained, along)) = projected else {
+        return nothing;
+    };
+    let norm = own.0 - explained;
+    if norm <= 1e-9 * own.0 {
+        return nothing;
+    }
+    let product = own.1 - along;
+    let size = product / norm;
+    let mut scaled = acting.clone();
+    for (value, parameter) in scaled.values.iter_mut().zip(acting.effect.parameters()) {
+        if let Some(zero) = parameter.vanishes_at {
+            let wanted = zero + size * (*value - zero);
+            *value = wanted.clamp(parameter.lower, parameter.upper);
+            if *value == zero {
+                return nothing;
+            }
+        }
+    }
+    Score {
+        acting: scaled,
+        fall: product * product / norm,
+    }
+}

@@ -1,0 +1,338 @@
+//! The joint with effects in any of its places: one rising scalar equation per step.
+
+mod cells;
+mod laws;
+mod ledger;
+mod quadrature;
+mod root;
+
+use super::density::Sliders;
+use super::effect::{Acting, Response, Situation};
+use super::network::Network;
+use super::simulation::{Drive, JointError};
+pub(super) use cells::fine_cells;
+use laws::Laws;
+use ledger::{Ledger, Leg};
+use root::{Excess, NoRoot, Scales, rising_root};
+
+/// How far a search goes, in units of the network's own slip range.
+const FARTHEST: f64 = 1e15;
+/// Rounding errors of a sum, in units of the last place of its largest part.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// The extended joint in motion. The unknown of a step is the slip u:
+///
+/// ```text
+/// F_j = N(u) + Σ p(u)                  network with its slip limits, and what acts beside slip
+/// U   = u + F_j/K_1 + Σ δ(F_j) + Σ s(F_j, step)          spring (Eq. 52) and load path
+/// F   = F_j + Σ f(U, (U − U_old)/step)                   beside the joint
+/// ```
+/// Both F(u) and U(u) rise, so either drive is one bracketed Newton search. Slip limits are those
+/// of the last accepted situation. Where no time passes, rates are zero.
+///
+/// Checked in tests/extended.rs: equal to the exact response where nothing acts, work balance,
+/// closed forms of single effects, saved and restored state.
+#[derive(Debug, Clone)]
+pub(super) struct Extended {
+    drive: Drive,
+    flexibility: f64,
+    reach: f64,
+    network: Network,
+    laws: Laws,
+    now: Situation,
+    ledger: Ledger,
+    tangent: f64,
+    input: f64,
+}
+
+/// What the joint answers to a step. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Answer {
+    pub force: f64,
+    pub displacement: f64,
+    pub slip: f64,
+    pub dissipation: f64,
+    pub stored_energy: f64,
+    pub tangent_stiffness: f64,
+}
+
+/// Everything that follows from one trial slip.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    /// F_j \[N\].
+    load: f64,
+    /// U \[m\].
+    displacement: f64,
+    /// F \[N\].
+    force: f64,
+    /// dF_j/du \[N/m\].
+    load_slope: f64,
+    /// dU/du.
+    stretch: f64,
+    /// dF/du at fixed rate, and with the rate.
+    elastic: f64,
+    stiffness: f64,
+    /// Scales of rounding in F \[N\] and U \[m\].
+    force_noise: f64,
+    displacement_noise: f64,
+}
+
+impl Extended {
+    /// A virgin joint of these sliders behind K_1 \[N/m\].
+    pub fn new(
+        sliders: &Sliders,
+        series_stiffness: f64,
+        effects: &[Acting],
+        drive: Drive,
+    ) -> Extended {
+        let laws = Laws::new(effects);
+        let mut extended = Extended {
+            drive,
+            flexibility: 1.0 / series_stiffness,
+            reach: sliders.slip_at.last().copied().unwrap_or(1e-6),
+            network: Network::new(sliders),
+            ledger: Ledger::new(&laws),
+            laws,
+            now: Situation::default(),
+            tangent: 0.0,
+            input: 0.0,
+        };
+        extended.now.displacement = extended.laws.in_load_path(0.0, 0.0).value;
+        extended
+            .network
+            .begin(extended.laws.slip_limit(&extended.now));
+        let start = extended.point(0.0, 0.0, true);
+        extended.tangent = start.elastic / start.stretch;
+        extended
+    }
+
+    /// Goes to `input` \[N or m\] at `time` \[s\] within `step` \[s\]; the state is as before on an
+    /// error.
+    pub fn advance(&mut self, time: f64, step: f64, input: f64) -> Result<Answer, JointError> {
+        let limit = self.laws.slip_limit(&self.now);
+        self.network.begin(limit);
+        let slip = self.solve(step, input).map_err(|reason| {
+            let full_slip = self.network.full_slip_force(input > 0.0);
+            match reason {
+                NoRoot::OutOfReach if self.drive == Drive::Force => JointError::BeyondFullSlip {
+                    force: input,
+                    full_slip,
+                },
+                _ => JointError::NotFinite {
+                    time,
+                    value: f64::NAN,
+                },
+            }
+        })?;
+        self.accept(time, step, input, slip);
+        Ok(self.answer(input))
+    }
+
+    /// Newton's last step, smaller than a digit of u, taken by F_j and U instead: where a play
+    /// hangs free, one digit of u is many of U.
+    fn last_digit(&self, mut point: Point, slip: f64, input: f64) -> Point {
+        let (excess, slope) = match self.drive {
+            Drive::Force => (point.force - input, point.stiffness),
+            Drive::Displacement => (point.displacement - input, point.stretch),
+        };
+        let rest = excess / slope;
+        if rest.abs() <= ROUNDING * (slip.abs() + self.network.slip().abs()) {
+            point.load -= point.load_slope * rest;
+            point.displacement -= point.stretch * rest;
+        }
+        if self.drive == Drive::Displacement {
+            point.displacement = input;
+        }
+        point
+    }
+
+    fn solve(&self, step: f64, input: f64) -> Result<f64, NoRoot> {
+        let start = self.network.slip();
+        let onwards = input >= self.input;
+        let scales = Scales {
+            reach: 1e-3 * self.reach,
+            farthest: FARTHEST * self.reach,
+            digit: 0.5 * f64::EPSILON * start.abs(),
+        };
+        rising_root(start, scales, |slip| {
+            let rising = if slip == start { onwards } else { slip > start };
+            let point = self.point(slip, step, rising);
+            match self.drive {
+                Drive::Force => Excess {
+                    value: point.force - input,
+                    slope: point.stiffness,
+                    noise: ROUNDING * (point.force_noise + input.abs()),
+                },
+                Drive::Displacement => Excess {
+                    value: point.displacement - input,
+                    slope: point.stretch,
+                    noise: ROUNDING * (point.displacement_noise + input.abs()),
+                },
+            }
+        })
+    }
+
+    fn point(&self, slip: f64, step: f64, rising: bool) -> Point {
+        let network = self.network.trial(slip, rising);
+        let beside = self.laws.beside_slip(slip);
+        let load = network.force + beside.value;
+        let load_slope = network.stiffness + beside.slope;
+        let path = self.laws.in_load_path(load, step);
+        let spring = load * self.flexibility;
+        let displacement = slip + spring + path.value;
+        let stretch = 1.0 + (self.flexibility + path.slope) * load_slope;
+        let velocity = self.velocity(displacement, step);
+        let parallel = self.laws.beside_joint(displacement, velocity);
+        let damping = if step > 0.0 {
+            parallel.damping / step
+        } else {
+            0.0
+        };
+        let elastic = load_slope + parallel.slope * stretch;
+        Point {
+            load,
+            load_slope,
+            displacement,
+            force: load + parallel.value,
+            stretch,
+            elastic,
+            stiffness: elastic + damping * stretch,
+            force_noise: network.gross + beside.value.abs() + parallel.value.abs(),
+            displacement_noise: slip.abs() + spring.abs() + path.value.abs(),
+        }
+    }
+
+    fn velocity(&self, displacement: f64, step: f64) -> f64 {
+        if step > 0.0 {
+            (displacement - self.now.displacement) / step
+        } else {
+            0.0
+        }
+    }
+
+    fn accept(&mut self, time: f64, step: f64, input: f64, slip: f64) {
+        let from = self.now;
+        let rising = slip > from.slip || (slip == from.slip && input >= self.input);
+        let point = self.last_digit(self.point(slip, step, rising), slip, input);
+        let loss = self.network.accept(slip);
+        self.now = Situation {
+            time,
+            step,
+            force: point.load,
+            displacement: point.displacement,
+            velocity: self.velocity(point.displacement, step),
+            slip,
+            slip_rate: if step > 0.0 {
+                (slip - from.slip) / step
+            } else {
+                0.0
+            },
+            dissipation: from.dissipation + loss,
+        };
+        let works = self.ledger.work(&self.laws, &Leg { from, to: self.now });
+        self.laws.remember(&self.now);
+        self.ledger.close(&self.laws, &self.now, &works, loss);
+        if slip != from.slip {
+            self.tangent = point.elastic / point.stretch;
+        }
+        self.input = input;
+    }
+
+    /// The accepted state; the driven quantity is the input itself.
+    fn answer(&self, input: f64) -> Answer {
+        let now = &self.now;
+        let Response { value: beside, .. } = self.laws.beside_joint(now.displacement, now.velocity);
+        let (force, displacement) = match self.drive {
+            Drive::Force => (input, now.displacement),
+            Drive::Displacement => (now.force + beside, input),
+        };
+        let spring = 0.5 * self.flexibility * now.force * now.force;
+        Answer {
+            force,
+            displacement,
+            slip: now.slip,
+            dissipation: self.ledger.dissipation(),
+            stored_energy: self.network.stored_energy() + spring + self.ledger.stored(),
+            tangent_stiffness: self.tangent,
+        }
+    }
+
+    /// Tangent stiffness dF/dU \[N/m\] along the last direction, rates held.
+    pub fn tangent_stiffness(&self) -> f64 {
+        self.tangent
+    }
+
+    /// Appends the complete state.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        let now = &self.now;
+        state.extend([
+            now.time,
+            now.step,
+            now.force,
+            now.displacement,
+            now.velocity,
+        ]);
+        state.extend([
+            now.slip,
+            now.slip_rate,
+            now.dissipation,
+            self.tangent,
+            self.input,
+        ]);
+        self.network.save(state);
+        self.ledger.save(state);
+        state.extend_from_slice(self.laws.memory());
+    }
+
+    /// Puts back what [`Extended::save`] appended, or says what differs.
+    pub fn restore(&mut self, state: &[f64]) -> Result<(), JointError> {
+        let network = self.network.state_length();
+        let ledger = self.ledger.state_length();
+        let expected = SITUATION + network + ledger + self.laws.memory().len();
+        let [
+            time,
+            step,
+            force,
+            displacement,
+            velocity,
+            slip,
+            slip_rate,
+            dissipation,
+            tangent,
+            input,
+            rest @ ..,
+        ] = state
+        else {
+            return Err(foreign(expected, state.len()));
+        };
+        if state.len() != expected {
+            return Err(foreign(expected, state.len()));
+        }
+        self.now = Situation {
+            time: *time,
+            step: *step,
+            force: *force,
+            displacement: *displacement,
+            velocity: *velocity,
+            slip: *slip,
+            slip_rate: *slip_rate,
+            dissipation: *dissipation,
+        };
+        (self.tangent, self.input) = (*tangent, *input);
+        let (sliders, rest) = rest.split_at(network);
+        let (account, memory) = rest.split_at(ledger);
+        self.network.restore(sliders);
+        self.ledger.restore(account);
+        self.laws.restore(memory);
+        Ok(())
+    }
+}
+
+/// Numbers before the network's in a saved state.
+const SITUATION: usize = 10;
+
+fn foreign(expected: usize, found: usize) -> JointError {
+    JointError::ForeignState {
+        reason: format!("it has {found} numbers where this joint with its effects has {expected}"),
+    }
+}

@@ -1,0 +1,153 @@
+//! The effects of one joint, asked place by place.
+
+use std::ops::Range;
+
+use crate::joint::effect::{Acting, Place, Response, Situation, SlipLimit};
+
+/// One effect and where its history lies in the simulation's memory.
+#[derive(Debug, Clone)]
+pub(super) struct Law {
+    pub acting: Acting,
+    pub place: Place,
+    pub span: Range<usize>,
+}
+
+/// All effects of a joint with their history.
+#[derive(Debug, Clone)]
+pub(super) struct Laws {
+    laws: Vec<Law>,
+    memory: Vec<f64>,
+}
+
+impl Laws {
+    /// The effects that act on the joint itself; those of the measuring chain are left out.
+    pub fn new(effects: &[Acting]) -> Laws {
+        let mut laws = Vec::new();
+        let mut length = 0;
+        for acting in effects
+            .iter()
+            .filter(|a| !a.effect.place().is_measurement())
+        {
+            let end = length + acting.effect.memory();
+            laws.push(Law {
+                acting: acting.clone(),
+                place: acting.effect.place(),
+                span: length..end,
+            });
+            length = end;
+        }
+        Laws {
+            laws,
+            memory: vec![0.0; length],
+        }
+    }
+
+    /// Count of effects.
+    pub fn len(&self) -> usize {
+        self.laws.len()
+    }
+
+    /// Effects in order, each with its history.
+    pub fn iter(&self) -> impl Iterator<Item = (&Law, &[f64])> {
+        self.laws
+            .iter()
+            .map(|law| (law, &self.memory[law.span.clone()]))
+    }
+
+    /// History of all effects.
+    pub fn memory(&self) -> &[f64] {
+        &self.memory
+    }
+
+    /// Puts back a saved history of the same length.
+    pub fn restore(&mut self, memory: &[f64]) {
+        self.memory.copy_from_slice(memory);
+    }
+
+    /// Product of all slip limits.
+    pub fn slip_limit(&self, last: &Situation) -> SlipLimit {
+        self.at(Place::SlipLimit)
+            .map(|(law, memory)| {
+                law.acting
+                    .effect
+                    .slip_limit(&law.acting.values, last, memory)
+            })
+            .fold(SlipLimit::UNCHANGED, |all, one| SlipLimit {
+                positive: all.positive * one.positive,
+                negative: all.negative * one.negative,
+            })
+    }
+
+    /// Force beside the network at slip u, `Σ p(u)`.
+    pub fn beside_slip(&self, slip: f64) -> Response {
+        self.sum(Place::BesideSlip, |law, memory| {
+            law.beside_slip(slip, memory)
+        })
+    }
+
+    /// Force beside the joint at displacement U and rate V.
+    pub fn beside_joint(&self, displacement: f64, velocity: f64) -> Response {
+        self.sum(Place::BesideJoint, |law, _| {
+            law.beside_joint(displacement, velocity)
+        })
+    }
+
+    /// Displacement beyond F/K_1 and of all that lies in series, at the end of a step.
+    pub fn in_load_path(&self, force: f64, step: f64) -> Response {
+        let spring = self.sum(Place::Spring, |law, _| law.spring(force));
+        let series = self.sum(Place::InSeries, |law, memory| {
+            law.in_series(force, step, memory)
+        });
+        plus(spring, series)
+    }
+
+    /// Shows an accepted sample to every effect.
+    pub fn remember(&mut self, now: &Situation) {
+        for law in &self.laws {
+            let memory = &mut self.memory[law.span.clone()];
+            law.acting.effect.remember(&law.acting.values, now, memory);
+        }
+    }
+
+    fn at(&self, place: Place) -> impl Iterator<Item = (&Law, &[f64])> {
+        self.iter().filter(move |(law, _)| law.place == place)
+    }
+
+    fn sum(&self, place: Place, answer: impl Fn(&Law, &[f64]) -> Response) -> Response {
+        self.at(place)
+            .map(|(law, memory)| answer(law, memory))
+            .fold(Response::default(), plus)
+    }
+}
+
+impl Law {
+    pub fn beside_slip(&self, slip: f64, memory: &[f64]) -> Response {
+        let acting = &self.acting;
+        acting.effect.beside_slip(&acting.values, slip, memory)
+    }
+    pub fn beside_joint(&self, displacement: f64, velocity: f64) -> Response {
+        let acting = &self.acting;
+        acting
+            .effect
+            .beside_joint(&acting.values, displacement, velocity)
+    }
+    pub fn spring(&self, force: f64) -> Response {
+        self.acting.effect.spring(&self.acting.values, force)
+    }
+    pub fn in_series(&self, force: f64, step: f64, memory: &[f64]) -> Response {
+        let acting = &self.acting;
+        acting.effect.in_series(&acting.values, force, step, memory)
+    }
+    pub fn stored_energy(&self, now: &Situation, memory: &[f64]) -> Option<f64> {
+        let acting = &self.acting;
+        acting.effect.stored_energy(&acting.values, now, memory)
+    }
+}
+
+fn plus(one: Response, other: Response) -> Response {
+    Response {
+        value: one.value + other.value,
+        slope: one.slope + other.slope,
+        damping: one.damping + other.damping,
+    }
+}

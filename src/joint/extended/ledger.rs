@@ -1,0 +1,156 @@
+//! Where the work goes in the extended joint: kept by the effects, or dissipated.
+
+use super::laws::{Law, Laws};
+use super::quadrature::integral;
+use crate::joint::effect::{Place, Situation};
+
+/// Energy account of the effects and of the spring; the network keeps its own.
+///
+/// For each effect `work = kept + lost`, where the work of a step is
+///
+/// ```text
+/// beside slip    ∫ p du                    beside joint   ∫ f(U,0) dU + [f(U,V) − f(U,0)] ΔU
+/// spring         ∫ F dδ                    in series      F_old [s(F_old, step) − s_old] + ∫ F ds
+/// ```
+/// and the kept part is the effect's own [`stored_energy`](crate::joint::Effect::stored_energy), or
+/// the integral where the law depends on its argument alone. Losses are added up with their sign,
+/// and the dissipation told is their largest sum so far: it never falls, and what a law gives back
+/// beyond its stored energy appears as a debt of the stored energy instead of vanishing.
+#[derive(Debug, Clone)]
+pub(super) struct Ledger {
+    /// Loss of network and effects so far, with its sign \[J\].
+    lost: f64,
+    /// Largest loss so far \[J\].
+    dissipation: f64,
+    /// Energy that each effect keeps \[J\].
+    kept: Vec<f64>,
+    /// Displacement of each effect in series \[m\], zero for the others.
+    series: Vec<f64>,
+}
+
+/// The two ends of an accepted step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    pub from: Situation,
+    pub to: Situation,
+}
+
+impl Ledger {
+    /// An account at rest under zero force.
+    pub fn new(laws: &Laws) -> Ledger {
+        let series = laws.iter().map(|(law, memory)| match law.place {
+            Place::InSeries => law.in_series(0.0, 0.0, memory).value,
+            _ => 0.0,
+        });
+        Ledger {
+            lost: 0.0,
+            dissipation: 0.0,
+            kept: vec![0.0; laws.len()],
+            series: series.collect(),
+        }
+    }
+
+    /// Dissipated since the start \[J\], never falling.
+    pub fn dissipation(&self) -> f64 {
+        self.dissipation
+    }
+
+    /// Kept by the effects \[J\], less any debt.
+    pub fn stored(&self) -> f64 {
+        self.kept.iter().sum::<f64>() - (self.dissipation - self.lost)
+    }
+
+    /// Books a step that `laws` have not yet remembered; returns per effect the work that its
+    /// stored energy must still be set against, see [`Ledger::close`].
+    pub fn work(&mut self, laws: &Laws, leg: &Leg) -> Vec<Work> {
+        let mut works = Vec::with_capacity(laws.len());
+        for (series, (law, memory)) in self.series.iter_mut().zip(laws.iter()) {
+            works.push(work_of(law, memory, leg, series));
+        }
+        works
+    }
+
+    /// Books the step for good, after the effects have remembered it.
+    pub fn close(&mut self, laws: &Laws, now: &Situation, works: &[Work], network_loss: f64) {
+        self.lost += network_loss;
+        for ((kept, work), (law, memory)) in self.kept.iter_mut().zip(works).zip(laws.iter()) {
+            let next = law
+                .stored_energy(now, memory)
+                .unwrap_or(*kept + work.elastic);
+            self.lost += work.elastic + work.other - (next - *kept);
+            *kept = next;
+        }
+        self.dissipation = self.dissipation.max(self.lost);
+    }
+
+    /// Count of numbers of state for this count of effects.
+    pub fn state_length(&self) -> usize {
+        2 + 2 * self.kept.len()
+    }
+
+    /// Appends the account.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.lost, self.dissipation]);
+        state.extend_from_slice(&self.kept);
+        state.extend_from_slice(&self.series);
+    }
+
+    /// Puts back what [`Ledger::save`] appended; `state` has [`Ledger::state_length`] numbers.
+    pub fn restore(&mut self, state: &[f64]) {
+        let count = self.kept.len();
+        if let [lost, dissipation, rest @ ..] = state {
+            (self.lost, self.dissipation) = (*lost, *dissipation);
+            self.kept.copy_from_slice(&rest[..count]);
+            self.series.copy_from_slice(&rest[count..]);
+        }
+    }
+}
+
+/// Work done on one effect within a step \[J\].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Work {
+    /// Along its law at fixed time and history.
+    pub elastic: f64,
+    /// All other.
+    pub other: f64,
+}
+
+fn work_of(law: &Law, memory: &[f64], leg: &Leg, series: &mut f64) -> Work {
+    let (from, to) = (&leg.from, &leg.to);
+    match law.place {
+        Place::BesideSlip => Work {
+            elastic: integral(from.slip, to.slip, |u| law.beside_slip(u, memory).value),
+            other: 0.0,
+        },
+        Place::BesideJoint => {
+            let still = |displacement| law.beside_joint(displacement, 0.0).value;
+            let moving = law.beside_joint(to.displacement, to.velocity).value;
+            Work {
+                elastic: integral(from.displacement, to.displacement, still),
+                other: (moving - still(to.displacement)) * (to.displacement - from.displacement),
+            }
+        }
+        Place::Spring => Work {
+            elastic: complement(from.force, to.force, |force| law.spring(force).value),
+            other: 0.0,
+        },
+        Place::InSeries => {
+            let over = |force| law.in_series(force, to.step, memory).value;
+            let crept = over(from.force) - *series;
+            *series = over(to.force);
+            Work {
+                elastic: complement(from.force, to.force, over),
+                other: from.force * crept,
+            }
+        }
+        Place::SlipLimit | Place::ForceChannel | Place::DisplacementChannel => Work::default(),
+    }
+}
+
+/// `∫ F ds` along a law s(F): what it takes up between two forces.
+fn complement(from: f64, to: f64, law: impl Fn(f64) -> f64) -> f64 {
+    if from == to {
+        return 0.0;
+    }
+    to * law(to) - from * law(from) - integral(from, to, &law)
+}

@@ -1,0 +1,178 @@
+//! The root of a rising function: safeguarded Newton that survives kinks, jumps and plateaus.
+
+/// A rising function at one point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Excess {
+    /// Value minus target.
+    pub value: f64,
+    /// Derivative on the side towards which the search goes; zero on a plateau.
+    pub slope: f64,
+    /// Below this, `value` is rounding.
+    pub noise: f64,
+}
+
+/// Lengths of a search.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scales {
+    /// First step where the slope gives none.
+    pub reach: f64,
+    /// How far a root may lie.
+    pub farthest: f64,
+    /// Rounding of the argument.
+    pub digit: f64,
+}
+
+/// Why there is no root.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum NoRoot {
+    /// The function stays on one side of the target however far one goes.
+    OutOfReach,
+    /// The function has no value.
+    NotANumber,
+}
+
+/// Growth of the reach while the root is not yet enclosed.
+const GROWTH: f64 = 4.0;
+/// Newton steps that may fall short before the reach takes over.
+const PATIENCE: usize = 6;
+/// Evaluations before the search is given up; halving alone needs about 60.
+const EVALUATIONS: usize = 400;
+
+/// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
+/// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
+/// Steps within `digit` are none; gives up beyond `farthest` from `start`.
+pub(super) fn rising_root(
+    start: f64,
+    Scales {
+        mut reach,
+        farthest,
+        digit,
+    }: Scales,
+    mut excess: impl FnMut(f64) -> Excess,
+) -> Result<f64, NoRoot> {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let (mut best, mut least) = (start, f64::INFINITY);
+    let mut point = start;
+    for evaluation in 0..EVALUATIONS {
+        let here = excess(point);
+        if here.value.is_nan() {
+            return Err(NoRoot::NotANumber);
+        }
+        if here.value.abs() <= here.noise {
+            return Ok(point);
+        }
+        let helped = here.value.abs() <= 0.5 * least;
+        if here.value.abs() < least {
+            (best, least) = (point, here.value.abs());
+        }
+        if here.value < 0.0 {
+            low = point
+        } else {
+            high = point
+        }
+        let newton = point - here.value / here.slope;
+        if (newton - point).abs() <= digit {
+            return Ok(point);
+        }
+        point = if low.is_finite() && high.is_finite() {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                return Ok(best);
+            }
+            if newton > low && newton < high && (helped || evaluation < PATIENCE) {
+                newton
+            } else {
+                middle
+            }
+        } else {
+            let wanted = newton - point;
+            let step = if wanted.is_finite() && evaluation < PATIENCE {
+                wanted
+            } else {
+                reach *= GROWTH;
+                let least_step = if wanted.is_finite() {
+                    wanted.abs()
+                } else {
+                    0.0
+                };
+                reach.max(least_step).copysign(-here.value)
+            };
+            if (point + step - start).abs() > farthest {
+                return Err(NoRoot::OutOfReach);
+            }
+            point + step
+        };
+    }
+    Ok(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FREE: Scales = Scales {
+        reach: 1.0,
+        farthest: 1e12,
+        digit: 0.0,
+    };
+
+    fn line_with_kink(x: f64) -> Excess {
+        let (value, slope) = if x < 1.0 {
+            (x, 1.0)
+        } else {
+            (1.0 + 1e-9 * (x - 1.0), 1e-9)
+        };
+        Excess {
+            value: value - 1.5,
+            slope,
+            noise: 1e-16,
+        }
+    }
+
+    #[test]
+    fn crosses_a_kink_into_a_near_plateau() {
+        let root = rising_root(0.0, FREE, line_with_kink);
+        assert!(
+            root.is_ok_and(|x| (x - 500_000_001.0).abs() < 1e-6 * x),
+            "{root:?}"
+        );
+    }
+
+    #[test]
+    fn a_plateau_without_end_is_out_of_reach() {
+        let root = rising_root(0.0, FREE, |x| {
+            let inside = x.abs() < 1.0;
+            let slope = if inside { 1.0 } else { 0.0 };
+            Excess {
+                value: x.clamp(-1.0, 1.0) - 2.0,
+                slope,
+                noise: 1e-16,
+            }
+        });
+        assert_eq!(root, Err(NoRoot::OutOfReach));
+    }
+
+    #[test]
+    fn a_jump_is_found_to_the_last_digit() {
+        let jump = 0.3;
+        let root = rising_root(0.0, FREE, |x| Excess {
+            value: if x < jump { -1.0 + x } else { 1.0 + x },
+            slope: 1.0,
+            noise: 1e-16,
+        });
+        assert!(
+            root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON),
+            "{root:?}"
+        );
+    }
+
+    #[test]
+    fn no_number_is_said_so() {
+        let root = rising_root(0.0, FREE, |_| Excess {
+            value: f64::NAN,
+            slope: 1.0,
+            noise: 0.0,
+        });
+        assert_eq!(root, Err(NoRoot::NotANumber));
+    }
+}

@@ -1,0 +1,277 @@
+//! Why a file was refused: where it stands, what stands there, and the way out.
+
+use super::quantity::Quantity;
+use std::path::{Path, PathBuf};
+
+/// A place in a table: file, line and column, both counted from 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Spot {
+    /// The file as it was named.
+    pub file: PathBuf,
+    /// Line of the file, comments and blank lines counted.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// The column's header as it stands in the file, or what it was declared to be.
+    pub name: String,
+}
+
+impl std::fmt::Display for Spot {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let file = self.file.display();
+        write!(
+            f,
+            "{file}, line {}, column {} `{}`",
+            self.line, self.column, self.name
+        )
+    }
+}
+
+/// Why a file, or an option that describes one, was refused. Checked by `tests/reading.rs`.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ReadError {
+    /// No such file.
+    #[error("{}: there is no such file; check the name and the folder", .file.display())]
+    Missing {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A folder where a file is wanted.
+    #[error("{}: this is a folder; name the files in it", .file.display())]
+    Directory {
+        /// The folder.
+        file: PathBuf,
+    },
+    /// The system refused to read.
+    #[error("{}: cannot be read: {reason}", .file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// The system's words.
+        reason: String,
+    },
+    /// Not text.
+    #[error(
+        "{}: this is a binary file, not a table of text; export it as CSV with a header such as `time [s], force [N], displacement [m]`",
+        .file.display()
+    )]
+    Binary {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Nothing in it but blank lines and comments.
+    #[error(
+        "{}: the file is empty; it needs a header such as `time [s], force [N], displacement [m]` and rows of numbers",
+        .file.display()
+    )]
+    Empty {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A header without rows.
+    #[error("{}, line {line}: a header and no row of numbers below it", .file.display())]
+    NoRows {
+        /// The file.
+        file: PathBuf,
+        /// Line of the header.
+        line: usize,
+    },
+    /// A single column.
+    #[error(
+        "{}, line {line}: one column only, `{text}`; columns are separated by comma, semicolon or tab, and a measurement needs force and displacement",
+        .file.display()
+    )]
+    OneColumn {
+        /// The file.
+        file: PathBuf,
+        /// Line where the table starts.
+        line: usize,
+        /// That line.
+        text: String,
+    },
+    /// Numbers where the header should stand.
+    #[error(
+        "{}, line {line}: `{text}` are numbers where the header should stand; add one such as `time [s], force [N], displacement [m]`, or say what the columns hold with --columns force=2,displacement=1 --units force=N,displacement=mm",
+        .file.display()
+    )]
+    NoHeader {
+        /// The file.
+        file: PathBuf,
+        /// Line where the table starts.
+        line: usize,
+        /// That line.
+        text: String,
+    },
+    /// Columns that must be there are not.
+    #[error(
+        "{}, line {line}: no column {wanted} among {found}; rename it in the header or point to it with --columns, counted from 1",
+        .file.display()
+    )]
+    MissingColumn {
+        /// The file.
+        file: PathBuf,
+        /// Line of the header.
+        line: usize,
+        /// Names wanted.
+        wanted: String,
+        /// Names there are.
+        found: String,
+    },
+    /// Two columns for one quantity.
+    #[error(
+        "{second}: column {first} `{first_name}` holds {quantity} too; name every column to use with --columns, such as {quantity}={first}"
+    )]
+    Twice {
+        /// The later column.
+        second: Spot,
+        /// The earlier one, from 1.
+        first: usize,
+        /// Its header.
+        first_name: String,
+        /// What both hold.
+        quantity: Quantity,
+    },
+    /// `--columns` points beyond the table.
+    #[error(
+        "{}, line {line}: --columns asks for {quantity} in column {choice}, and there are {found}",
+        .file.display()
+    )]
+    NoSuchColumn {
+        /// The file.
+        file: PathBuf,
+        /// Line of the header.
+        line: usize,
+        /// What it should hold.
+        quantity: Quantity,
+        /// The column asked for.
+        choice: String,
+        /// Columns there are.
+        found: String,
+    },
+    /// A quantity without unit.
+    #[error(
+        "{spot}: no unit; write it in the header as `{quantity} [{example}]` or give --units {quantity}={example}"
+    )]
+    MissingUnit {
+        /// The header cell.
+        spot: Spot,
+        /// What it holds.
+        quantity: Quantity,
+        /// A unit that would do.
+        example: &'static str,
+    },
+    /// A unit that is not known, or one of another dimension.
+    #[error("{spot}: {}; known for {quantity}: {}", unit_fault(.unit, .measures), super::unit::known(*.quantity))]
+    UnknownUnit {
+        /// The header cell.
+        spot: Spot,
+        /// The unit as written.
+        unit: String,
+        /// What it would measure; `None` where it is not known at all.
+        measures: Option<&'static str>,
+        /// What the column holds.
+        quantity: Quantity,
+    },
+    /// A row longer or shorter than the header.
+    #[error("{}, line {line}: {found} columns where the table has {expected}: `{text}`", .file.display())]
+    Ragged {
+        /// The file.
+        file: PathBuf,
+        /// Line of the row.
+        line: usize,
+        /// Columns of this row.
+        found: usize,
+        /// Columns of the table.
+        expected: usize,
+        /// The row, shortened.
+        text: String,
+    },
+    /// Nothing where a number should stand.
+    #[error("{spot}: empty cell; a gap cannot be simulated: cut the record there or fill it in")]
+    EmptyCell {
+        /// The cell.
+        spot: Spot,
+    },
+    /// Text where a number should stand.
+    #[error("{spot}: `{value}` is not a number{hint}")]
+    NotANumber {
+        /// The cell.
+        spot: Spot,
+        /// The text.
+        value: String,
+        /// What may have happened; empty or `; …`.
+        hint: &'static str,
+    },
+    /// NaN, infinity, or beyond what a double holds.
+    #[error("{spot}: `{value}` is not a finite number; remove the sample or cut the record there")]
+    NotFinite {
+        /// The cell.
+        spot: Spot,
+        /// The text.
+        value: String,
+    },
+    /// Time falls.
+    #[error(
+        "{spot}: time runs back from {from} s to {to} s; sort the rows, or give each test its own file"
+    )]
+    TimeRunsBack {
+        /// The cell.
+        spot: Spot,
+        /// Time of the row before \[s\].
+        from: String,
+        /// Time of this row \[s\].
+        to: String,
+    },
+    /// Time stands still.
+    #[error(
+        "{spot}: time {at} s stands twice; write time with more digits or remove the repeated row"
+    )]
+    TimeRepeats {
+        /// The cell.
+        spot: Spot,
+        /// That time \[s\].
+        at: String,
+    },
+    /// A negative number where none can be.
+    #[error("{spot}: {value} is negative, and {quantity} cannot be; check the sign and the column")]
+    Negative {
+        /// The cell.
+        spot: Spot,
+        /// The text.
+        value: String,
+        /// What it should be.
+        quantity: Quantity,
+    },
+    /// `--columns` or `--units` cannot be understood.
+    #[error("{option} `{text}`: {reason}")]
+    Option {
+        /// Which option.
+        option: &'static str,
+        /// The entry as written.
+        text: String,
+        /// What is wrong and what is right.
+        reason: String,
+    },
+}
+
+impl ReadError {
+    /// The refusal of the system to open or read `file`.
+    pub(super) fn from_system(file: &Path, error: &std::io::Error) -> ReadError {
+        let file = file.to_path_buf();
+        match error.kind() {
+            std::io::ErrorKind::NotFound => ReadError::Missing { file },
+            std::io::ErrorKind::IsADirectory => ReadError::Directory { file },
+            _ => ReadError::Unreadable {
+                file,
+                reason: error.to_string(),
+            },
+        }
+    }
+}
+
+fn unit_fault(unit: &str, measures: &Option<&'static str>) -> String {
+    match measures {
+        Some(other) => format!("unit `{unit}` measures {other}"),
+        None => format!("unknown unit `{unit}`"),
+    }
+}

@@ -1,0 +1,192 @@
+//! The rows of numbers, in SI, checked one by one.
+
+use super::error::{ReadError, Spot};
+use super::head::{self, Head};
+use super::layout::Column;
+use super::number::{self, Fault, Mark};
+use super::quantity::Quantity;
+use super::source::Source;
+
+/// Values in SI, one vector per column of the layout, and the line of the file of each row.
+pub struct Numbers {
+    columns: Vec<(Quantity, Vec<f64>)>,
+    /// Line of each row, from 1.
+    pub lines: Vec<usize>,
+}
+
+impl Numbers {
+    /// Takes the values of a quantity out.
+    pub fn take(&mut self, quantity: Quantity) -> Option<Vec<f64>> {
+        let found = self.columns.iter_mut().find(|(of, _)| *of == quantity);
+        found.map(|(_, values)| std::mem::take(values))
+    }
+}
+
+/// Reads every row; says in `notes` what was assumed.
+///
+/// # Errors
+/// [`ReadError::Ragged`], [`ReadError::EmptyCell`], [`ReadError::NotANumber`],
+/// [`ReadError::NotFinite`], [`ReadError::Negative`], [`ReadError::TimeRunsBack`],
+/// [`ReadError::TimeRepeats`], [`ReadError::NoRows`], each at its line.
+pub fn read(
+    source: &Source,
+    head: &Head,
+    columns: &[Column],
+    notes: &mut Vec<String>,
+) -> Result<Numbers, ReadError> {
+    let text = &source.text[head.start..];
+    let mut lines_seen = source.text[..head.start]
+        .bytes()
+        .filter(|b| *b == b'\n')
+        .count();
+    let mut counted_to = 0;
+    let mut values: Vec<Vec<f64>> = vec![Vec::new(); columns.len()];
+    let mut lines = Vec::new();
+    let mut mark = Mark::Unseen;
+    let mut blank_at: Option<usize> = None;
+    let mut rows = head::reader(text, head.separator);
+    let mut row = csv::StringRecord::new();
+    loop {
+        let more = rows
+            .read_record(&mut row)
+            .map_err(|error| ReadError::Unreadable {
+                file: source.file.clone(),
+                reason: error.to_string(),
+            })?;
+        if !more {
+            break;
+        }
+        let end = text[..head::end_of(&rows)]
+            .trim_end_matches(['\n', '\r'])
+            .len();
+        if end > counted_to {
+            lines_seen += text[counted_to..end]
+                .bytes()
+                .filter(|byte| *byte == b'\n')
+                .count();
+            counted_to = end;
+        }
+        let line = lines_seen + 1;
+        if head::is_blank(&row) {
+            blank_at = blank_at.or((row.len() > 1).then_some(line));
+            continue;
+        }
+        if row[0].trim_start().starts_with('#') {
+            continue;
+        }
+        let place = Place { source, line };
+        if let Some(line) = blank_at {
+            let spot = Place { source, line }.spot(&columns[0]);
+            return Err(ReadError::EmptyCell { spot });
+        }
+        place.check_width(&row, head)?;
+        for (column, values) in columns.iter().zip(&mut values) {
+            let cell = row.get(column.index).unwrap_or_default();
+            let value = place.number(cell, column, &mut mark)?;
+            place.check(value, cell, column, values.last().copied())?;
+            values.push(value);
+        }
+        lines.push(line);
+    }
+    if lines.is_empty() {
+        return Err(ReadError::NoRows {
+            file: source.file.clone(),
+            line: head.line,
+        });
+    }
+    if mark == Mark::Comma {
+        notes.push("a comma within a number is read as decimal comma".to_string());
+    }
+    let columns = columns
+        .iter()
+        .map(|column| column.quantity)
+        .zip(values)
+        .collect();
+    Ok(Numbers { columns, lines })
+}
+
+/// A line of the file, where a cell can be refused.
+struct Place<'a> {
+    source: &'a Source,
+    line: usize,
+}
+
+impl Place<'_> {
+    fn spot(&self, column: &Column) -> Spot {
+        Spot {
+            file: self.source.file.clone(),
+            line: self.line,
+            column: column.index + 1,
+            name: column.name.clone(),
+        }
+    }
+
+    /// Further cells are allowed where they are empty: many programs end every row so.
+    fn check_width(&self, row: &csv::StringRecord, head: &Head) -> Result<(), ReadError> {
+        let further = row.iter().skip(head.width);
+        if row.len() >= head.width && further.into_iter().all(|cell| cell.trim().is_empty()) {
+            return Ok(());
+        }
+        Err(ReadError::Ragged {
+            file: self.source.file.clone(),
+            line: self.line,
+            found: row.len(),
+            expected: head.width,
+            text: head::shown(row, head.separator),
+        })
+    }
+
+    fn number(&self, cell: &str, column: &Column, mark: &mut Mark) -> Result<f64, ReadError> {
+        let value = || cell.trim().to_string();
+        let written = number::parse(cell, mark).map_err(|fault| match fault {
+            Fault::Empty => ReadError::EmptyCell {
+                spot: self.spot(column),
+            },
+            Fault::NotFinite => ReadError::NotFinite {
+                spot: self.spot(column),
+                value: value(),
+            },
+            Fault::Text(hint) => ReadError::NotANumber {
+                spot: self.spot(column),
+                value: value(),
+                hint,
+            },
+        })?;
+        let si = column.unit.si(written);
+        match si.is_finite() {
+            true => Ok(si),
+            false => Err(ReadError::NotFinite {
+                spot: self.spot(column),
+                value: value(),
+            }),
+        }
+    }
+
+    fn check(
+        &self,
+        value: f64,
+        cell: &str,
+        column: &Column,
+        last: Option<f64>,
+    ) -> Result<(), ReadError> {
+        if column.quantity.never_negative() && value < 0.0 {
+            return Err(ReadError::Negative {
+                spot: self.spot(column),
+                value: cell.trim().to_string(),
+                quantity: column.quantity,
+            });
+        }
+        match last.filter(|_| column.quantity == Quantity::Time) {
+            Some(last) if value < last => Err(ReadError::TimeRunsBack {
+                spot: self.spot(column),
+                from: last.to_string(),
+                to: value.to_string(),
+            }),
+            Some(last) if value == last => Err(ReadError::TimeRepeats {
+                spot: self.spot(column),
+                at: value.to_string(),
+            }),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! joint.json ⇄ joint.
+//!
+//! ```json
+//! {
+//!   "format": "iwan-joint/1", "version": "0.1.0", "units": "SI",
+//!   "density": {"family": "four_parameter", "slip_force": 1000.0, "…": 0.0},
+//!   "series_stiffness": null,
+//!   "causes": [{"name": "pinning", "parameters": {"…": 0.0}}],
+//!   "provenance": {"records": [{"name": "bolt-1", "samples": 4000, "sha256": "…"}], "date": "…"},
+//!   "intervals": {"slip_force": [990.0, 1010.0]}
+//! }
+//! ```
+//! Parameters stand under their glossary names. `null` is infinity: a rigid series spring, or a
+//! bound that the data do not set. Every finite number survives a round trip to the last bit.
+
+mod reading;
+mod writing;
+
+use std::collections::BTreeMap;
+
+use crate::joint::{Joint, JointError};
+
+pub use reading::read;
+pub use writing::write;
+
+/// What the `format` entry must say.
+pub const FORMAT: &str = "iwan-joint/1";
+
+/// A joint with where it comes from and how well it is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SavedJoint {
+    /// The joint.
+    pub joint: Joint,
+    /// What it was identified from.
+    pub provenance: Provenance,
+    /// 95 % intervals by parameter name, SI units; infinite where the data set no bound.
+    pub intervals: BTreeMap<String, (f64, f64)>,
+}
+
+/// What a joint was identified from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Provenance {
+    /// The records.
+    pub records: Vec<RecordUsed>,
+    /// When, as ISO 8601.
+    pub date: Option<String>,
+    /// What wrote the file, with its version.
+    pub tool: Option<String>,
+    /// In words, for joints that no record stands behind.
+    pub remark: Option<String>,
+}
+
+/// One record that a joint was identified from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RecordUsed {
+    /// File stem.
+    pub name: String,
+    /// Count of samples.
+    pub samples: usize,
+    /// Hash of the file's content, hexadecimal.
+    pub sha256: String,
+}
+
+/// Why a joint.json was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SavedError {
+    /// No JSON, or cut short.
+    #[error(
+        "{file}:{line}:{column}: {reason}; the file is damaged or cut short: write it again with `iwan identify` or `iwan diagnose`"
+    )]
+    Syntax {
+        /// File as named by the caller.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What the JSON parser found.
+        reason: String,
+    },
+    /// An entry that must be there.
+    #[error("{file}: {place} is missing: {needed}")]
+    Missing {
+        /// File as named by the caller.
+        file: String,
+        /// JSON path, e.g. `$.density.family`.
+        place: String,
+        /// What to put there.
+        needed: String,
+    },
+    /// An entry that cannot be used.
+    #[error("{file}: {place} is {value}: {needed}")]
+    Unusable {
+        /// File as named by the caller.
+        file: String,
+        /// JSON path.
+        place: String,
+        /// The value found, shortened.
+        value: String,
+        /// What to put there.
+        needed: String,
+    },
+    /// Well-formed values that make no joint.
+    #[error("{file}: {place}: {reason}")]
+    NoJoint {
+        /// File as named by the caller.
+        file: String,
+        /// JSON path.
+        place: String,
+        /// What the joint says.
+        reason: JointError,
+    },
+}

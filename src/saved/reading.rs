@@ -1,0 +1,336 @@
+//! joint.json → joint.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+use super::{FORMAT, Provenance, RecordUsed, SavedError, SavedJoint};
+use crate::causes;
+use crate::joint::{
+    Acting, Density, Effect, FourParameter, Joint, Parameter, PowerLaw, PowerLawTable, Sliders,
+};
+
+/// Reads a joint.json; `path` is how errors name the file.
+///
+/// # Errors
+/// [`SavedError`], with line and column where the text is no JSON and the JSON path elsewhere.
+/// Checked in tests/saved.rs.
+pub fn read(text: &str, path: &str) -> Result<SavedJoint, SavedError> {
+    read_with(text, path, |name| Some(causes::find(name)?.effect()))
+}
+
+/// [`read`] with another catalogue.
+fn read_with(
+    text: &str,
+    path: &str,
+    find: impl Fn(&str) -> Option<&'static dyn Effect>,
+) -> Result<SavedJoint, SavedError> {
+    let value: Value = serde_json::from_str(text).map_err(|error| SavedError::Syntax {
+        file: path.into(),
+        line: error.line(),
+        column: error.column(),
+        reason: error.to_string(),
+    })?;
+    let root = Entry {
+        file: path,
+        place: "$".into(),
+        value: &value,
+    };
+    root.object()?;
+    let format = root.get("format", "add \"format\": \"iwan-joint/1\"")?;
+    if format.text()? != FORMAT {
+        return Err(format.unusable("this program reads \"iwan-joint/1\""));
+    }
+    let units = root.get("units", "add \"units\": \"SI\"")?;
+    if units.text()? != "SI" {
+        return Err(units.unusable("give all parameters in SI units and say \"SI\""));
+    }
+    let density = density(&root.get("density", "give a density with its \"family\"")?)?;
+    let spring = root.get(
+        "series_stiffness",
+        "a stiffness in N/m, or null where rigid",
+    )?;
+    let series_stiffness = if spring.value.is_null() {
+        f64::INFINITY
+    } else {
+        spring.number()?
+    };
+    let effects = match root.find("causes") {
+        Some(list) => effects(&list, find)?,
+        None => Vec::new(),
+    };
+    let joint =
+        Joint::new(density, series_stiffness, effects).map_err(|reason| SavedError::NoJoint {
+            file: path.into(),
+            place: "$".into(),
+            reason,
+        })?;
+    Ok(SavedJoint {
+        joint,
+        provenance: root
+            .find("provenance")
+            .map_or(Ok(Provenance::default()), |e| provenance(&e))?,
+        intervals: root
+            .find("intervals")
+            .map_or(Ok(BTreeMap::new()), |e| intervals(&e))?,
+    })
+}
+
+fn density(entry: &Entry) -> Result<Density, SavedError> {
+    let family = entry.get("family", FAMILIES)?;
+    let (scalars, tables): (&[Parameter], &[&str]) = match family.text()? {
+        "power_law" => (PowerLaw::PARAMETERS, &[]),
+        "four_parameter" => (FourParameter::PARAMETERS, &[]),
+        "power_law_table" => (PowerLawTable::PARAMETERS, &["break_free", "density"]),
+        "sliders" => (Sliders::PARAMETERS, &["weight", "slip_at"]),
+        _ => return Err(family.unusable(FAMILIES)),
+    };
+    let mut known = vec!["family"];
+    known.extend(scalars.iter().map(|parameter| parameter.name));
+    known.extend(tables);
+    entry.only(&known)?;
+    let values = parameters(entry, scalars)?;
+    let mut vectors = Vec::new();
+    for name in tables {
+        vectors.push(entry.get(name, "a list of numbers, SI units")?.numbers()?);
+    }
+    let made = match (values.as_slice(), vectors.as_slice()) {
+        (&[coefficient, exponent, slider_stiffness, stiffness], [break_free, density]) => {
+            let (break_free, density) = (break_free.clone(), density.clone());
+            PowerLawTable::new(
+                coefficient,
+                exponent,
+                slider_stiffness,
+                stiffness,
+                break_free,
+                density,
+            )
+            .map(Density::PowerLawTable)
+        }
+        (&[elastic], [weight, slip_at]) => {
+            Sliders::new(weight.clone(), slip_at.clone(), elastic).map(Density::Sliders)
+        }
+        _ => Density::from_values(family.text()?, &values),
+    };
+    made.map_err(|reason| entry.no_joint(reason))
+}
+
+const FAMILIES: &str = "one of \"power_law\", \"power_law_table\", \"four_parameter\", \"sliders\"";
+
+fn effects(
+    list: &Entry,
+    find: impl Fn(&str) -> Option<&'static dyn Effect>,
+) -> Result<Vec<Acting>, SavedError> {
+    let mut effects: Vec<Acting> = Vec::new();
+    for entry in list.items()? {
+        let name = entry.get("name", "the name of a cause, see `iwan causes`")?;
+        let effect = find(name.text()?)
+            .ok_or_else(|| name.unusable("no such cause; `iwan causes` lists those there are"))?;
+        if effect.place().is_measurement() {
+            let needed = "it belongs to the measuring chain, not to the joint: take it out";
+            return Err(name.unusable(needed));
+        }
+        if effects
+            .iter()
+            .any(|other| other.effect.name() == effect.name())
+        {
+            return Err(name.unusable("it is there twice: keep one"));
+        }
+        let glossary = effect.parameters();
+        let given = entry.get("parameters", &names(glossary))?;
+        let known: Vec<&str> = glossary.iter().map(|parameter| parameter.name).collect();
+        given.only(&known)?;
+        effects.push(Acting {
+            effect,
+            values: parameters(&given, glossary)?,
+        });
+    }
+    Ok(effects)
+}
+
+/// Values in the order of the glossary, each in its range.
+fn parameters(entry: &Entry, glossary: &[Parameter]) -> Result<Vec<f64>, SavedError> {
+    let mut values = Vec::with_capacity(glossary.len());
+    for parameter in glossary {
+        let Parameter {
+            name,
+            unit,
+            lower,
+            upper,
+            ..
+        } = parameter;
+        let needed = format!("a number in {unit} between {lower} and {upper}");
+        let given = entry.get(name, &needed)?;
+        let value = if given.value.is_null() {
+            f64::INFINITY
+        } else {
+            given.number()?
+        };
+        if !(*lower..=*upper).contains(&value) {
+            return Err(given.unusable(&needed));
+        }
+        values.push(value);
+    }
+    Ok(values)
+}
+
+fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
+    entry.object()?;
+    let words = |name: &str| {
+        entry
+            .find(name)
+            .map(|e| e.text().map(String::from))
+            .transpose()
+    };
+    let mut provenance = Provenance {
+        records: Vec::new(),
+        date: words("date")?,
+        tool: words("tool")?,
+        remark: words("remark")?,
+    };
+    if let Some(records) = entry.find("records") {
+        for record in records.items()? {
+            let samples = record.get("samples", "the count of samples")?;
+            let count = samples
+                .value
+                .as_u64()
+                .and_then(|count| usize::try_from(count).ok());
+            provenance.records.push(RecordUsed {
+                name: record.get("name", "the record's name")?.text()?.into(),
+                samples: count.ok_or_else(|| samples.unusable("a whole number"))?,
+                sha256: record.get("sha256", "the file's hash")?.text()?.into(),
+            });
+        }
+    }
+    Ok(provenance)
+}
+
+fn intervals(entry: &Entry) -> Result<BTreeMap<String, (f64, f64)>, SavedError> {
+    let mut intervals = BTreeMap::new();
+    for name in entry.object()?.keys() {
+        let bounds = entry.get(name, "two bounds")?;
+        let [low, high] = bounds
+            .items()?
+            .try_into()
+            .map_err(|_| bounds.unusable("two bounds"))?;
+        let low = if low.value.is_null() {
+            f64::NEG_INFINITY
+        } else {
+            low.number()?
+        };
+        let high = if high.value.is_null() {
+            f64::INFINITY
+        } else {
+            high.number()?
+        };
+        intervals.insert(name.clone(), (low, high));
+    }
+    Ok(intervals)
+}
+
+fn names(glossary: &[Parameter]) -> String {
+    let names: Vec<&str> = glossary.iter().map(|parameter| parameter.name).collect();
+    format!("give {}", names.join(", "))
+}
+
+/// A place in the file.
+struct Entry<'a> {
+    file: &'a str,
+    place: String,
+    value: &'a Value,
+}
+
+impl<'a> Entry<'a> {
+    fn find(&self, name: &str) -> Option<Entry<'a>> {
+        let value = self.value.get(name)?;
+        Some(Entry {
+            file: self.file,
+            place: format!("{}.{name}", self.place),
+            value,
+        })
+    }
+
+    fn get(&self, name: &str, needed: &str) -> Result<Entry<'a>, SavedError> {
+        self.object()?;
+        self.find(name).ok_or_else(|| SavedError::Missing {
+            file: self.file.into(),
+            place: format!("{}.{name}", self.place),
+            needed: needed.into(),
+        })
+    }
+
+    fn object(&self) -> Result<&'a Map<String, Value>, SavedError> {
+        self.value
+            .as_object()
+            .ok_or_else(|| self.unusable("it must be an object { … }"))
+    }
+
+    /// Refuses names that nothing reads: a misspelt parameter must not pass for its default.
+    fn only(&self, known: &[&str]) -> Result<(), SavedError> {
+        match self
+            .object()?
+            .keys()
+            .find(|name| !known.contains(&name.as_str()))
+        {
+            Some(stranger) => {
+                let entry = self.get(stranger, "")?;
+                Err(entry.unusable(&format!(
+                    "no such name here; known are {}",
+                    known.join(", ")
+                )))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn items(&self) -> Result<Vec<Entry<'a>>, SavedError> {
+        let list = self
+            .value
+            .as_array()
+            .ok_or_else(|| self.unusable("it must be a list [ … ]"))?;
+        let entries = list.iter().enumerate().map(|(i, value)| Entry {
+            file: self.file,
+            place: format!("{}[{i}]", self.place),
+            value,
+        });
+        Ok(entries.collect())
+    }
+
+    fn text(&self) -> Result<&'a str, SavedError> {
+        self.value
+            .as_str()
+            .ok_or_else(|| self.unusable("it must be a text in quotes"))
+    }
+
+    fn number(&self) -> Result<f64, SavedError> {
+        self.value
+            .as_f64()
+            .ok_or_else(|| self.unusable("it must be a number"))
+    }
+
+    fn numbers(&self) -> Result<Vec<f64>, SavedError> {
+        self.items()?.iter().map(Entry::number).collect()
+    }
+
+    fn unusable(&self, needed: &str) -> SavedError {
+        let mut value: String = self.value.to_string().chars().take(60).collect();
+        if value.chars().count() == 60 {
+            value.push('…');
+        }
+        let (file, place) = (self.file.into(), self.place.clone());
+        SavedError::Unusable {
+            file,
+            place,
+            value,
+            needed: needed.into(),
+        }
+    }
+
+    fn no_joint(&self, reason: crate::joint::JointError) -> SavedError {
+        SavedError::NoJoint {
+            file: self.file.into(),
+            place: self.place.clone(),
+            reason,
+        }
+    }
+}

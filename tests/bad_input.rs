@@ -1,0 +1,307 @@
+//! Whatever is wrong with what the user gives: exit status 2, a message that names file, line,
+//! column and value, and not one file written, changed or left behind.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const HEADER: &str = "time [s],force [N],displacement [mm]\n";
+
+/// A folder of its own for one test, empty, with a space and no ASCII in its name.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("bad input ß {name}"));
+        let _ = std::fs::remove_dir_all(&path); // of an earlier run, if any
+        std::fs::create_dir_all(&path).expect("a folder for test files");
+        Folder(path)
+    }
+
+    fn put(&self, name: &str, content: &[u8]) -> PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, content).expect("a test file");
+        path
+    }
+
+    /// Every file in the folder with its content; folders with none.
+    fn content(&self) -> BTreeMap<OsString, Option<Vec<u8>>> {
+        let entries = std::fs::read_dir(&self.0).expect("the folder").flatten();
+        entries
+            .map(|entry| (entry.file_name(), std::fs::read(entry.path()).ok()))
+            .collect()
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_iwan"))
+            .current_dir(&self.0)
+            .args(arguments)
+            .output()
+            .expect("the binary runs")
+    }
+
+    /// Runs, and holds the refusal against the promises.
+    fn assert_refuses(&self, arguments: &[&str], words: &[&str]) {
+        let before = self.content();
+        let output = self.run(arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(
+            output.stdout.is_empty(),
+            "{arguments:?} prints a result all the same"
+        );
+        for word in words {
+            assert!(
+                message.contains(word),
+                "{arguments:?}: no `{word}` in: {message}"
+            );
+        }
+        assert!(
+            !message.contains("iwan: defect"),
+            "{arguments:?}: {message}"
+        );
+        assert_eq!(
+            self.content(),
+            before,
+            "{arguments:?} leaves or changes files"
+        );
+    }
+}
+
+/// A joint that slips fully at 100 N: two sliders of 50 N.
+const JOINT: &str = r#"{
+  "format": "iwan-joint/1", "version": "0.1.0", "units": "SI",
+  "density": {"family": "sliders", "elastic": 0.0,
+              "weight": [1e6, 1e6], "slip_at": [1e-5, 9e-5]},
+  "series_stiffness": 1e7,
+  "causes": []
+}"#;
+
+#[test]
+fn bad_records_are_refused_by_every_command_that_reads_them() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "0,1,2\n1,NaN,2\n",
+            "nan",
+            &["line 3", "column 2 `force [N]`", "`NaN`"],
+        ),
+        (
+            "0,1,2\n1,2,abc\n",
+            "text",
+            &["line 3", "column 3 `displacement [mm]`", "`abc`"],
+        ),
+        ("0,1,2\n1,,2\n", "gap", &["line 3", "column 2", "empty"]),
+        (
+            "0,1,2\n2,1,2\n1,1,2\n",
+            "back",
+            &["line 4", "column 1 `time [s]`", "2 s to 1 s"],
+        ),
+        (
+            "0,1,2\n0,1,2\n",
+            "repeated",
+            &["line 3", "column 1", "time 0 s"],
+        ),
+        ("0,1,2\n1,2\n", "ragged", &["line 3", "`1,2`"]),
+        ("", "header only", &["line 1", "no row"]),
+    ];
+    let folder = Folder::new("records");
+    folder.put("joint.json", JOINT.as_bytes());
+    folder.put("kept.json", b"precious");
+    folder.put("kept.csv", b"precious");
+    let mut files: Vec<(String, Vec<u8>, Vec<&str>)> = cases
+        .iter()
+        .map(|(rows, name, words)| {
+            (
+                format!("{name} ü.csv"),
+                format!("{HEADER}{rows}").into_bytes(),
+                words.to_vec(),
+            )
+        })
+        .collect();
+    let whole: [(&str, &[u8], &[&str]); 6] = [
+        ("empty.csv", b"", &["empty"]),
+        ("comments.csv", b"# nothing\n\n", &["empty"]),
+        (
+            "one column.csv",
+            b"force [N]\n1\n2\n",
+            &["line 1", "one column", "`force [N]`"],
+        ),
+        (
+            "unit.csv",
+            b"time [s],force [stone],u [m]\n0,1,2\n",
+            &["line 1", "column 2", "`stone`"],
+        ),
+        ("no header.csv", b"0,1,2\n1,2,3\n", &["line 1", "--columns"]),
+        ("binary.csv", b"PK\x03\x04\0\0\0\0", &["binary"]),
+    ];
+    for (name, content, words) in whole {
+        files.push((name.to_string(), content.to_vec(), words.to_vec()));
+    }
+    for (name, content, words) in &files {
+        let path = folder.put(name, content);
+        let words: Vec<&str> = words.iter().copied().chain([name.as_str()]).collect();
+        let name = name.as_str();
+        folder.assert_refuses(&["simulate", "joint.json", name, "-o", "kept.csv"], &words);
+        folder.assert_refuses(&["simulate", "joint.json", name, "-o", "new.csv"], &words);
+        folder.assert_refuses(&["identify", name, "-o", "kept.json"], &words);
+        folder.assert_refuses(&["identify", name, "-o", "new.json"], &words);
+        folder.assert_refuses(&["diagnose", name, "-o", "result"], &words);
+        std::fs::remove_file(path).expect("the test file");
+    }
+}
+
+#[test]
+fn paths_that_do_not_serve_are_refused() {
+    let folder = Folder::new("paths");
+    folder.put("joint.json", JOINT.as_bytes());
+    folder.put("load.csv", b"t [s],F [N],u [mm]\n0,0,0\n1,50,0.01\n");
+    folder.put("copy.csv", b"t [s],F [N],u [mm]\n0,0,0\n1,50,0.01\n");
+    std::fs::create_dir(folder.0.join("folder")).expect("a folder");
+    let cases: &[(&[&str], &[&str])] = &[
+        (
+            &["simulate", "none.json", "load.csv", "-o", "o.csv"],
+            &["none.json", "no such file"],
+        ),
+        (
+            &["simulate", "joint.json", "none.csv", "-o", "o.csv"],
+            &["none.csv", "no such file"],
+        ),
+        (
+            &["simulate", "folder", "load.csv", "-o", "o.csv"],
+            &["folder", "joint.json in it"],
+        ),
+        (
+            &["simulate", "joint.json", "folder", "-o", "o.csv"],
+            &["this is a folder"],
+        ),
+        (
+            &["simulate", "joint.json", "load.csv", "-o", "folder"],
+            &["this is a folder"],
+        ),
+        (
+            &["simulate", "joint.json", "load.csv", "-o", "no/o.csv"],
+            &["no folder `no`"],
+        ),
+        (
+            &["simulate", "joint.json", "load.csv", "-o", "load.csv"],
+            &["load.csv", "an input"],
+        ),
+        (
+            &["simulate", "joint.json", "load.csv", "-o", "./joint.json"],
+            &["an input"],
+        ),
+        (
+            &["identify", "none.csv", "-o", "o.json"],
+            &["none.csv", "no such file"],
+        ),
+        (
+            &["identify", "folder", "-o", "o.json"],
+            &["this is a folder"],
+        ),
+        (
+            &["identify", "load.csv", "-o", "no/o.json"],
+            &["no folder `no`"],
+        ),
+        (&["identify", "load.csv", "-o", "load.csv"], &["an input"]),
+        (
+            &["identify", "load.csv", "copy.csv", "-o", "o.json"],
+            &["copy.csv", "same content"],
+        ),
+        (
+            &["diagnose", "none.csv", "-o", "result"],
+            &["none.csv", "no such file"],
+        ),
+        (
+            &["diagnose", "load.csv", "-o", "no/result"],
+            &["no folder `no`"],
+        ),
+        (
+            &["diagnose", "load.csv", "-o", "load.csv"],
+            &["this is a file"],
+        ),
+        (&["causes", "loose_bolt"], &["`loose_bolt`", "pinning"]),
+    ];
+    for (arguments, words) in cases {
+        folder.assert_refuses(arguments, words);
+    }
+}
+
+#[test]
+fn bad_usage_is_refused() {
+    let folder = Folder::new("usage");
+    folder.put("joint.json", JOINT.as_bytes());
+    folder.put("load.csv", b"t [s],F [N],u [mm]\n0,0,0\n1,50,0.01\n");
+    let simulate = |further: &[&str], words: &[&str]| {
+        let command = ["simulate", "joint.json", "load.csv", "-o", "o.csv"];
+        folder.assert_refuses(&[&command[..], further].concat(), words);
+    };
+    folder.assert_refuses(&[], &["Usage"]);
+    folder.assert_refuses(&["tighten"], &["tighten"]);
+    folder.assert_refuses(&["simulate", "joint.json", "load.csv"], &["--output"]);
+    folder.assert_refuses(&["identify"], &["RECORD"]);
+    simulate(&["--drive", "torque"], &["torque", "displacement"]);
+    simulate(&["--columns", "force"], &["--columns `force`", "force=2"]);
+    simulate(&["--columns", "force=0"], &["counted from 1"]);
+    simulate(
+        &["--columns", "time=1,force=9"],
+        &["load.csv", "column 9", "2 `F [N]`"],
+    );
+    simulate(&["--units", "force=stone"], &["`stone`", "kN"]);
+    let no_displacement = ["--columns", "time=1,force=2", "--drive", "displacement"];
+    simulate(&no_displacement, &["load.csv", "no column displacement"]);
+}
+
+#[test]
+fn a_force_beyond_full_slip_is_refused_at_its_line() {
+    let folder = Folder::new("full slip");
+    folder.put("joint.json", JOINT.as_bytes());
+    folder.put("load.csv", b"# ramp\nF [kN],t [s]\n0,0\n0.05,1\n0.15,2\n");
+    folder.put("kept.csv", b"precious");
+    let words = [
+        "load.csv, line 5, column 1 `F [kN]`",
+        "150 N",
+        "full slip at 100 N",
+    ];
+    folder.assert_refuses(
+        &["simulate", "joint.json", "load.csv", "-o", "kept.csv"],
+        &words,
+    );
+    folder.assert_refuses(
+        &["simulate", "joint.json", "load.csv", "-o", "new.csv"],
+        &words,
+    );
+}
+
+#[test]
+fn a_damaged_joint_is_refused() {
+    let folder = Folder::new("joint");
+    folder.put("load.csv", b"t [s],F [N]\n0,0\n1,50\n");
+    let refuse = |content: &[u8], words: &[&str]| {
+        folder.put("joint ä.json", content);
+        let words: Vec<&str> = words.iter().copied().chain(["joint ä.json"]).collect();
+        folder.assert_refuses(
+            &["simulate", "joint ä.json", "load.csv", "-o", "o.csv"],
+            &words,
+        );
+    };
+    for kept in [0, 1, JOINT.len() / 4, JOINT.len() / 2, JOINT.len() - 1] {
+        refuse(&JOINT.as_bytes()[..kept], &["cut short"]);
+    }
+    refuse(b"\xff\xfe\x00", &["UTF-8"]);
+    refuse(b"[1, 2]", &["object"]);
+    refuse(
+        JOINT.replace("sliders", "springs").as_bytes(),
+        &["$.density.family", "springs"],
+    );
+    refuse(
+        JOINT.replace("1e7", "-1e7").as_bytes(),
+        &["series_stiffness", "-10000000"],
+    );
+    refuse(
+        JOINT.replace("\"SI\"", "\"US\"").as_bytes(),
+        &["$.units", "US"],
+    );
+    let unknown = JOINT.replace("[]", r#"[{"name": "loose_bolt", "parameters": {}}]"#);
+    refuse(unknown.as_bytes(), &["$.causes", "loose_bolt"]);
+}

@@ -1,0 +1,205 @@
+"""One blind case: joint, campaign, effect of known strength, noise; files and the truth apart."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from . import csvfile, loads, noise
+from .effects import CATALOGUE, EFFECTS, NEEDS_HOLDS
+from .joints import draw_joint
+from .refit import Baseline
+from .rig import Effect, Infeasible
+from .scene import Scene
+
+FLOOR = 0.2  # the clean record must refit to this fraction of its noise
+
+
+class Unreachable(Exception):
+    """The effect cannot be made as strong (or as weak) as asked for in this scene."""
+
+
+class Sampled:
+    """Channels of a campaign at the sampled points, in SI, without noise."""
+
+    def __init__(self, scene, traces, effect):
+        self.force, self.displacement, self.time = [], [], []
+        for history, trace in zip(scene.histories, traces, strict=True):
+            every = slice(None, None, history.fine)
+            self.time.append(trace.time[every])
+            self.force.append(effect.read_force(trace)[every])
+            self.displacement.append(effect.read_displacement(trace)[every])
+        by_force = scene.by_force
+        self.drive = self.force if by_force else self.displacement
+        self.response = self.displacement if by_force else self.force
+
+
+class Gauge:
+    """Measures what an effect leaves after the best refit, reusing the dictionary where it can."""
+
+    def __init__(self, scene):
+        self.scene = scene
+        self.clean = Sampled(scene, scene.clean, Effect())
+        self.known, self.baseline = self.clean.drive, Baseline(self.clean.drive, scene.by_force)
+        self.floor = self.baseline.misfit(self.clean.response)
+        self.rms = float(np.sqrt(np.mean(np.concatenate(self.clean.response) ** 2)))
+
+    def __call__(self, effect):
+        acts = effect.acts
+        only_sensor = acts <= {"read_force", "read_displacement"}
+        traces = self.scene.clean if only_sensor else self.scene.play(effect)
+        sampled = Sampled(self.scene, traces, effect)
+        same = all(
+            np.allclose(a, b, rtol=1e-9, atol=1e-9 * np.max(np.abs(b)))
+            for a, b in zip(sampled.drive, self.known, strict=True)
+        )
+        baseline = self.baseline if same else Baseline(sampled.drive, self.scene.by_force)
+        return baseline.misfit(sampled.response), sampled
+
+
+def calibrate(gauge, effect, target):
+    """Scale the effect until its misfit after refit is the target; (achieved, channels).
+
+    Secant steps in logarithms within a bracket, to 3 %.
+    """
+    low, high = 0.0, 1.0
+    trial, tried = 0.05, []
+    for _ in range(12):
+        effect.strength = trial
+        try:
+            found, sampled = gauge(effect)
+        except Infeasible:
+            high = trial
+            trial = 0.5 * (low + high)
+            tried = []
+            continue
+        if abs(found / target - 1.0) < 0.03:
+            return found, sampled
+        if found < target:
+            low = trial
+            if trial >= 1.0:
+                raise Unreachable("too weak at full strength")
+        else:
+            high = trial
+        tried.append((np.log(trial), np.log(max(found, 1e-3 * target))))
+        slope = 1.0
+        if len(tried) > 1:
+            (x0, y0), (x1, y1) = tried[-2:]
+            if x1 != x0:
+                slope = float(np.clip((y1 - y0) / (x1 - x0), 0.3, 4.0))
+        guess = float(np.exp(tried[-1][0] + (np.log(target) - tried[-1][1]) / slope))
+        if not low < guess < high:
+            if high == 1.0 and guess >= 1.0:
+                guess = 1.0
+            else:
+                guess = (low * high) ** 0.5 if low > 0.0 else 0.2 * high
+        trial = guess
+    raise Unreachable("no strength gives this ratio")
+
+
+def _scene(rng, name):
+    joint = draw_joint(rng)
+    histories = loads.draw_campaign(rng, holds=name in NEEDS_HOLDS or rng.random() < 0.12)
+    by_force = bool(rng.random() < 0.65)
+    if by_force:
+        share = rng.uniform(0.3, 0.95)
+        peak = share * joint.full_slip
+    else:
+        # Displacement at which this share of full slip would be carried by sticking contacts alone.
+        share = 10 ** rng.uniform(np.log10(0.3), np.log10(4.0))
+        soft = 1.0 / joint.network_stiffness + 1.0 / joint.series
+        peak = share * joint.full_slip * soft
+    return Scene.stage(joint, histories, by_force, float(peak)), float(share)
+
+
+def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
+    """(records, truth) of one case; records are (time, force, displacement) in SI with noise.
+
+    The same arguments give the same case. Scenes in which the effect cannot reach the ratio at a
+    sensible strength are drawn again; the truth says how often.
+    """
+    first = np.random.default_rng([seed, number])
+    name = name or str(first.choice(pool or [*EFFECTS]))
+    ratio = float(ratio if ratio is not None else np.exp(first.uniform(*np.log(span))))
+    refused = []
+    for attempt in range(40):
+        rng = np.random.default_rng([seed, number, attempt])
+        try:
+            scene, share = _scene(rng, name)
+            gauge = Gauge(scene)
+        except (Infeasible, RuntimeError) as reason:
+            refused.append(str(reason))
+            continue
+        level = 10 ** rng.uniform(-3.0, -2.0)
+        colour = noise.draw_colour(rng)
+        rms = level * gauge.rms
+        if gauge.floor > FLOOR * rms:
+            refused.append(f"sampling error {gauge.floor / rms:.2f} of the noise")
+            continue
+        effect, found, sampled = Effect(), gauge.floor, gauge.clean
+        if name != "clean":
+            for _ in range(3):
+                try:
+                    effect = EFFECTS[name](scene, rng)
+                    found, sampled = calibrate(gauge, effect, ratio * rms)
+                    break
+                except (Unreachable, Infeasible) as reason:
+                    refused.append(str(reason))
+            else:
+                continue
+        break
+    else:
+        raise RuntimeError(f"case {number} ({name}): {refused}")
+    drive_noise = 0.0 if rng.random() < 0.5 else float(0.05 * level * rng.uniform(0.2, 1.0))
+    offset = float(rng.normal(0.0, 0.005)) if scene.by_force and rng.random() < 0.4 else 0.0
+    records = []
+    for j, time in enumerate(sampled.time):
+        n = len(time)
+        response = sampled.response[j] + noise.noise(rng, n, rms, colour)
+        response = response + offset * np.max(np.abs(sampled.response[j]))
+        drive = sampled.drive[j] + noise.noise(rng, n, drive_noise * np.std(sampled.drive[j]), 0.0)
+        pair = (drive, response) if scene.by_force else (response, drive)
+        records.append((time, *pair))
+    truth = {
+        "schema": "laboratory-truth/1",
+        "seed": seed,
+        "case": number,
+        "effect": name,
+        "in_catalogue": name in CATALOGUE,
+        "kind": getattr(effect, "kind", None) if name != "clean" else None,
+        "parameters": effect.describe(),
+        "strength": getattr(effect, "strength", 0.0),
+        "ratio_asked": ratio if name != "clean" else 0.0,
+        "ratio_achieved": found / rms if name != "clean" else 0.0,
+        "refit_floor_over_noise": gauge.floor / rms,
+        "noise": {
+            "response_rms": rms,
+            "of_response_rms": level,
+            "lag_one_correlation": colour,
+            "drive_rms_share": drive_noise,
+        },
+        "drive": "force" if scene.by_force else "displacement",
+        "peak_share_of_full_slip": share,
+        "peak": scene.peak,
+        "joint": scene.joint.describe(),
+        "files": [h.describe() for h in scene.histories],
+        "drawn_again": refused,
+    }
+    style = csvfile.draw_style(rng)
+    return records, truth, style
+
+
+def write_case(directory, records, truth, style):
+    """Records into DIR/records, the truth beside it, never among them."""
+    directory = Path(directory)
+    folder = directory / "records"
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("*.csv"):
+        old.unlink()
+    paths = []
+    for j, record in enumerate(records, start=1):
+        path = folder / f"test-{j}.csv"
+        csvfile.write_record(path, *record, style, ["joint test", f"file {j} of {len(records)}"])
+        paths.append(path)
+    (directory / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
+    return paths
