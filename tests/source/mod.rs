@@ -71,10 +71,10 @@ impl SourceFile {
 
     /// Count of lines before the tests at the file's end.
     pub fn lines_before_tests(&self) -> usize {
-        self.text
-            .lines()
-            .take_while(|line| *line != "#[cfg(test)]")
-            .count()
+        match self.text.find("\n#[cfg(test)]\nmod ") {
+            Some(end) => self.text[..=end].lines().count(),
+            None => self.text.lines().count(),
+        }
     }
 
     /// Lines of code with their numbers from 1.
