@@ -3,7 +3,7 @@
 use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::noise::{Noise, from_differences, from_repeats};
+use crate::record::noise::{Noise, from_differences, from_repeats, from_residual};
 use crate::record::split::held_out;
 
 /// Records ready for the search.
@@ -42,7 +42,11 @@ pub fn form(records: &[Record]) -> Form {
         force += noise(&record.force);
         displacement += noise(&record.displacement);
     }
-    if displacement >= force { Form::Play } else { Form::Stop }
+    if displacement >= force {
+        Form::Play
+    } else {
+        Form::Stop
+    }
 }
 
 /// Largest over smallest secant compliance, from the peaks of the loops: the smallest from the
@@ -79,27 +83,70 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 /// Prepares records: form, first unweighted baseline, noise, weights, marks.
 pub fn prepare(records: &[Record]) -> Bench {
     let form = form(records);
-    let mut whole = Problem::new(form, records);
+    let whole = Problem::new(form, records);
     let first = baseline(&whole);
     let noise = noise(&whole, &first);
-    for (record, noise) in whole.records.iter_mut().zip(&noise) {
-        let a = noise.autoregression;
-        let innovation = noise.deviation * (1.0 - a * a).sqrt();
-        record.autoregression = a;
-        record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
+    let held: Vec<Vec<bool>> = (0..whole.records.len())
+        .map(|k| held_out(whole.channels(k).0))
+        .collect();
+    let scale = scale(&whole, &first);
+    let train = whole.clone();
+    let mut bench = Bench {
+        whole,
+        train,
+        held,
+        noise: Vec::new(),
+        scale,
+    };
+    bench.weigh(noise);
+    bench
+}
+
+impl Bench {
+    /// True where repeated cycles gave the noise of every record.
+    pub fn noise_is_repeated(&self) -> bool {
+        self.noise.iter().all(|n| n.repeated)
     }
-    let held: Vec<Vec<bool>> =
-        (0..whole.records.len()).map(|k| held_out(whole.channels(k).0)).collect();
-    let mut train = whole.clone();
-    for (record, held) in train.records.iter_mut().zip(&held) {
-        for (weight, held) in record.weight.iter_mut().zip(held) {
-            if *held {
-                *weight = 0.0;
+
+    /// Weighs every sample by the given noise, held-out ones not at all in `train`.
+    pub fn weigh(&mut self, noise: Vec<Noise>) {
+        for (k, noise) in noise.iter().enumerate() {
+            let a = noise.autoregression;
+            let innovation = noise.deviation * (1.0 - a * a).sqrt();
+            for (problem, keep) in [(&mut self.whole, true), (&mut self.train, false)] {
+                let record = &mut problem.records[k];
+                record.autoregression = a;
+                for (weight, held) in record.weight.iter_mut().zip(&self.held[k]) {
+                    *weight = if keep || !held { 1.0 / innovation } else { 0.0 };
+                }
             }
         }
+        self.noise = noise;
     }
-    let scale = scale(&whole, &first);
-    Bench { whole, train, held, noise, scale }
+
+    /// Noise read off the residual of the given fit, for records in which nothing repeats: what
+    /// the best model leaves is noise until a test of structure says otherwise.
+    pub fn noise_from(&self, fit: &Fit) -> Vec<Noise> {
+        let predictions = fit.predict(&self.whole);
+        (0..self.whole.records.len())
+            .map(|k| {
+                if self.noise[k].repeated {
+                    return self.noise[k];
+                }
+                let (_, judged) = self.whole.channels(k);
+                let residual: Vec<f64> = judged
+                    .iter()
+                    .zip(&predictions[k].judged)
+                    .map(|(y, p)| y - p)
+                    .collect();
+                let noise = from_residual(&residual);
+                Noise {
+                    deviation: noise.deviation.max(1e-9 * rms(judged)),
+                    ..noise
+                }
+            })
+            .collect()
+    }
 }
 
 /// Noise of the judged channel: from repeated cycles where a record has them, else lent by the
@@ -117,8 +164,11 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
         .enumerate()
         .map(|(k, own)| {
             let (_, judged) = problem.channels(k);
-            let residual: Vec<f64> =
-                judged.iter().zip(&predictions[k].judged).map(|(y, p)| y - p).collect();
+            let residual: Vec<f64> = judged
+                .iter()
+                .zip(&predictions[k].judged)
+                .map(|(y, p)| y - p)
+                .collect();
             let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(&residual));
             noise.deviation = noise.deviation.max(floor);
@@ -140,7 +190,8 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         force = force.max(largest(&truth.force));
         displacement = displacement.max(largest(&truth.displacement));
         dissipation = dissipation.max(last);
-        duration = duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
+        duration =
+            duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
         for i in 1..truth.displacement.len() {
             let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
             velocity = velocity.max(rate.abs());
@@ -152,7 +203,16 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         Form::Stop => first.coefficients.iter().sum::<f64>(),
     };
     let period = std::f64::consts::TAU * displacement / velocity.max(f64::MIN_POSITIVE);
-    Scale { force, displacement, velocity, stiffness, dissipation, duration, period, step }
+    Scale {
+        force,
+        displacement,
+        velocity,
+        stiffness,
+        dissipation,
+        duration,
+        period,
+        step,
+    }
 }
 
 /// Root mean square about the mean.
