@@ -148,18 +148,31 @@ struct Best {
     minimum: Minimum,
 }
 
+/// Iterations that tell the starts apart, and those of the best one.
+const FIRST: usize = 10;
+const LAST: usize = 100;
+
 /// The deepest of the descents from the starts; held shares keep their value.
 fn best_of(target: &Target, starts: &[Shape], held: [Option<f64>; 2]) -> Option<Best> {
-    starts
+    let first = starts
         .iter()
-        .filter_map(|start| descend(target, start, held))
-        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))
+        .filter_map(|start| descend(target, start, held, FIRST))
+        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))?;
+    if first.minimum.converged {
+        return Some(first);
+    }
+    descend(target, &first.shape, held, LAST)
 }
 
-fn descend(target: &Target, start: &Shape, held: [Option<f64>; 2]) -> Option<Best> {
+fn descend(
+    target: &Target,
+    start: &Shape,
+    held: [Option<f64>; 2],
+    most_iterations: usize,
+) -> Option<Best> {
     let free = free_numbers(start, held);
     let residuals = |numbers: &[f64]| target.residuals(&start.with(numbers));
-    let minimum = minimise(&free, &residuals)?;
+    let minimum = minimise(&free, most_iterations, &residuals)?;
     Some(Best {
         shape: start.with(&minimum.at),
         minimum,
