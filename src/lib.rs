@@ -9,11 +9,17 @@ pub mod causes;
 pub mod cli;
 #[cfg(feature = "tool")]
 pub mod diagnose;
+pub mod fmu;
 #[cfg(feature = "tool")]
 pub mod identify;
 pub mod joint;
+#[cfg(feature = "tool")]
+pub mod pack;
 #[cfg(feature = "tool")]
 pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
 pub mod saved;
+#[cfg(feature = "tool")]
+pub mod report;
+pub mod variables;

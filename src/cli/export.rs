@@ -1,10 +1,98 @@
-//! `iwan export`.
+//! `iwan export`: a joint as an FMI co-simulation unit.
 
-/// Export a joint as an FMI co-simulation unit.
+use super::simulate::DriveName;
+use super::{BadInput, output};
+use crate::joint::Drive;
+use crate::pack::{Archive, Library, PackError};
+use crate::variables::VariableError;
+use std::path::{Path, PathBuf};
+
+/// Export a joint as an FMI co-simulation unit (FMU).
 #[derive(Debug, clap::Args)]
-pub struct Export {}
+pub struct Export {
+    /// The joint: a joint.json of `iwan identify` or `iwan diagnose`
+    joint: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "JOINT.fmu")]
+    output: PathBuf,
+    /// What the importer prescribes
+    #[arg(long, value_enum, default_value = "force")]
+    drive: DriveName,
+    /// Version of FMI
+    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = ["2"])]
+    fmi: String,
+    /// A shared library to pack, e.g. `win64=IwanJoint.dll`; may be given once per platform. By
+    /// default the one that was built for this machine
+    #[arg(long, value_name = "PLATFORM=FILE")]
+    binary: Vec<String>,
+}
 
-/// Runs the subcommand.
-pub fn run(_arguments: &Export) -> anyhow::Result<()> {
-    anyhow::bail!("`iwan export` is not built yet")
+/// Writes the archive, or leaves what was there as it was.
+///
+/// # Errors
+/// [`BadInput`] where joint, library or output cannot be used; a parameter without a value
+/// reference is a defect.
+pub fn run(arguments: &Export) -> anyhow::Result<()> {
+    let inputs = inputs(arguments);
+    let inputs: Vec<_> = inputs.iter().map(PathBuf::as_path).collect();
+    output::admit(&arguments.output, &inputs)?;
+    let text = joint_json(&arguments.joint)?;
+    let drive = match arguments.drive {
+        DriveName::Force => Drive::Force,
+        DriveName::Displacement => Drive::Displacement,
+    };
+    let archive = archive(&text, &arguments.joint, drive, &arguments.binary).map_err(sorted)?;
+    let bytes = archive.bytes().map_err(sorted)?;
+    output::write(&arguments.output, |out| Ok(out.write_all(&bytes)?))?;
+    for name in archive.names() {
+        eprintln!("{}: {name}", arguments.output.display());
+    }
+    Ok(())
+}
+
+fn archive(
+    text: &str,
+    file: &Path,
+    drive: Drive,
+    binaries: &[String],
+) -> Result<Archive, PackError> {
+    let libraries = if binaries.is_empty() {
+        vec![Library::of_this_machine()?]
+    } else {
+        binaries
+            .iter()
+            .map(|named| Library::named(named))
+            .collect::<Result<_, _>>()?
+    };
+    Archive::new(text, &file.display().to_string(), drive, &libraries)
+}
+
+/// Files that the output must not replace.
+fn inputs(arguments: &Export) -> Vec<PathBuf> {
+    let named = arguments
+        .binary
+        .iter()
+        .filter_map(|named| named.split_once('='));
+    let mut inputs: Vec<_> = named.map(|(_, path)| PathBuf::from(path)).collect();
+    inputs.push(arguments.joint.clone());
+    inputs
+}
+
+/// The text as it is, since its hash goes into the archive; [`super::input::joint`] words what is
+/// wrong with the file.
+fn joint_json(file: &Path) -> anyhow::Result<String> {
+    super::input::joint(file)?;
+    Ok(std::fs::read_to_string(file)?)
+}
+
+/// Bad input, but for a name that our own tables lack.
+fn sorted(error: PackError) -> anyhow::Error {
+    match error {
+        PackError::Variables(
+            VariableError::UnknownParameter { .. }
+            | VariableError::UnknownCause { .. }
+            | VariableError::TooManyParameters { .. },
+        ) => error.into(),
+        _ => BadInput(error.to_string()).into(),
+    }
 }

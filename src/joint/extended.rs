@@ -1,5 +1,6 @@
 //! The joint with effects in any of its places: one rising scalar equation per step.
 
+mod cells;
 mod laws;
 mod ledger;
 mod quadrature;
@@ -9,9 +10,10 @@ use super::density::Sliders;
 use super::effect::{Acting, Response, Situation};
 use super::network::Network;
 use super::simulation::{Drive, JointError};
+pub(super) use cells::fine_cells;
 use laws::Laws;
 use ledger::{Ledger, Leg};
-use root::{Excess, NoRoot, rising_root};
+use root::{Excess, NoRoot, Scales, rising_root};
 
 /// How far a search goes, in units of the network's own slip range.
 const FARTHEST: f64 = 1e15;
@@ -63,6 +65,8 @@ struct Point {
     displacement: f64,
     /// F \[N\].
     force: f64,
+    /// dF_j/du \[N/m\].
+    load_slope: f64,
     /// dU/du.
     stretch: f64,
     /// dF/du at fixed rate, and with the rate.
@@ -124,11 +128,33 @@ impl Extended {
         Ok(self.answer(input))
     }
 
+    /// Newton's last step, smaller than a digit of u, taken by F_j and U instead: where a play
+    /// hangs free, one digit of u is many of U.
+    fn last_digit(&self, mut point: Point, slip: f64, input: f64) -> Point {
+        let (excess, slope) = match self.drive {
+            Drive::Force => (point.force - input, point.stiffness),
+            Drive::Displacement => (point.displacement - input, point.stretch),
+        };
+        let rest = excess / slope;
+        if rest.abs() <= ROUNDING * (slip.abs() + self.network.slip().abs()) {
+            point.load -= point.load_slope * rest;
+            point.displacement -= point.stretch * rest;
+        }
+        if self.drive == Drive::Displacement {
+            point.displacement = input;
+        }
+        point
+    }
+
     fn solve(&self, step: f64, input: f64) -> Result<f64, NoRoot> {
         let start = self.network.slip();
         let onwards = input >= self.input;
-        let reach = 1e-3 * self.reach;
-        rising_root(start, reach, FARTHEST * self.reach, |slip| {
+        let scales = Scales {
+            reach: 1e-3 * self.reach,
+            farthest: FARTHEST * self.reach,
+            digit: 0.5 * f64::EPSILON * start.abs(),
+        };
+        rising_root(start, scales, |slip| {
             let rising = if slip == start { onwards } else { slip > start };
             let point = self.point(slip, step, rising);
             match self.drive {
@@ -165,6 +191,7 @@ impl Extended {
         let elastic = load_slope + parallel.slope * stretch;
         Point {
             load,
+            load_slope,
             displacement,
             force: load + parallel.value,
             stretch,
@@ -186,7 +213,7 @@ impl Extended {
     fn accept(&mut self, time: f64, step: f64, input: f64, slip: f64) {
         let from = self.now;
         let rising = slip > from.slip || (slip == from.slip && input >= self.input);
-        let point = self.point(slip, step, rising);
+        let point = self.last_digit(self.point(slip, step, rising), slip, input);
         let loss = self.network.accept(slip);
         self.now = Situation {
             time,

@@ -3,7 +3,7 @@
 use super::Joint;
 use super::density::{Density, Sliders};
 use super::effect::Acting;
-use super::extended::Extended;
+use super::extended::{Extended, fine_cells};
 use super::memory::ExactResponse;
 use super::virgin::BehindSpring;
 
@@ -124,7 +124,7 @@ pub struct Simulation {
 
 /// Sliders that stand for a continuous density where effects act. Steady dissipation then is
 /// within 1e-4 of the exact one from a tenth of the slip range on (tests/extended.rs).
-pub const CELLS: usize = 128;
+pub const CELLS: usize = 256;
 
 /// Version of the saved state.
 const FORMAT: f64 = 1.0;
@@ -151,7 +151,7 @@ impl Simulation {
         let acting: Vec<Acting> = joint.effects.iter().filter(|a| acts(a)).cloned().collect();
         let stiffness = joint.series_stiffness;
         let response = if !acting.is_empty() {
-            let sliders = sliders_of(&joint.density);
+            let sliders = sliders_of(&joint.density)?;
             let extended = Extended::new(&sliders, stiffness, &acting, drive);
             Response::Extended(Box::new(extended))
         } else if drive == Drive::Force || stiffness.is_infinite() {
@@ -380,10 +380,10 @@ fn acts(acting: &Acting) -> bool {
         .is_none_or(|first| !(first && vanishing.all(|gone| gone)))
 }
 
-fn sliders_of(density: &Density) -> Sliders {
+fn sliders_of(density: &Density) -> Result<Sliders, JointError> {
     match density {
-        Density::Sliders(sliders) => sliders.clone(),
-        continuous => continuous.cells(CELLS, f64::INFINITY),
+        Density::Sliders(sliders) => Ok(sliders.clone()),
+        continuous => fine_cells(continuous, CELLS),
     }
 }
 

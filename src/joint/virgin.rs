@@ -4,8 +4,8 @@
 ///
 /// `G(u) = Λ_1(ku) + ku [Λ_0(∞) − Λ_0(ku)]` (Eq. 30, 34), concave and increasing, with the moments
 /// `Λ_n(θ) = ∫_0^θ ρ φ^n dφ` (Eq. 32);
-/// `k² ρ(ku) = −G''(u)` (Eq. 31: the print lacks the minus sign). A slider slides at `|f| = φ`
-/// (Eq. 27, where the print has a strict inequality on both sides).
+/// `k² ρ(ku) = −G''(u)` (Eq. 31: the print lacks the minus sign). A slider slides at `|f| = φ`,
+/// which is how Eq. 27 is to be read.
 pub trait VirginCurve {
     /// `G(u)` \[N\] for slip displacement `u ≥ 0` \[m\].
     fn force(&self, slip: f64) -> f64;
@@ -42,6 +42,37 @@ pub trait VirginCurve {
     /// [`SmallForce::residual_slip`](super::density::SmallForce::residual_slip).
     fn residual_slip(&self, largest_force: f64) -> f64 {
         self.displacement(largest_force) - 2.0 * self.displacement(largest_force / 2.0)
+    }
+}
+
+/// A borrowed curve is a curve: many responses may share one.
+impl<C: VirginCurve + ?Sized> VirginCurve for &C {
+    fn force(&self, slip: f64) -> f64 {
+        (**self).force(slip)
+    }
+    fn stiffness(&self, slip: f64) -> f64 {
+        (**self).stiffness(slip)
+    }
+    fn displacement(&self, force: f64) -> f64 {
+        (**self).displacement(force)
+    }
+    fn compliance(&self, force: f64) -> f64 {
+        (**self).compliance(force)
+    }
+    fn leg_dissipation(&self, slip: f64) -> f64 {
+        (**self).leg_dissipation(slip)
+    }
+    fn full_slip_force(&self) -> f64 {
+        (**self).full_slip_force()
+    }
+    fn initial_stiffness(&self) -> f64 {
+        (**self).initial_stiffness()
+    }
+    fn slipped_stiffness(&self, slip: f64) -> f64 {
+        (**self).slipped_stiffness(slip)
+    }
+    fn slipped_force(&self, slip: f64) -> f64 {
+        (**self).slipped_force(slip)
     }
 }
 

@@ -119,7 +119,7 @@ pub enum ReadError {
     },
     /// Two columns for one quantity.
     #[error(
-        "{second}: column {first} `{first_name}` holds {quantity} too; choose one with --columns {quantity}={first}"
+        "{second}: column {first} `{first_name}` holds {quantity} too; name every column to use with --columns, such as {quantity}={first}"
     )]
     Twice {
         /// The later column.

@@ -86,10 +86,7 @@ impl<'a> Layout<'a> {
             }
             match self.unit(*quantity, *index) {
                 Ok(unit) => {
-                    notes.extend(
-                        unit.remark
-                            .map(|remark| format!("{}: {remark}", self.name(*index))),
-                    );
+                    notes.extend(self.remark(*quantity, *index, unit));
                     let name = match self.head.names.is_empty() {
                         true => quantity.name().to_string(),
                         false => self.name(*index),
@@ -196,6 +193,33 @@ impl<'a> Layout<'a> {
             choice: choice.to_string(),
             found: self.all_names(),
         })
+    }
+
+    /// Unit in the header cell, else in the row below it.
+    fn written_unit(&self, index: usize) -> Option<&str> {
+        let in_cell = self
+            .head
+            .names
+            .get(index)
+            .and_then(|cell| quantity::name_and_unit(cell).1);
+        let below = self.head.units.get(index).map(|cell| bare(cell));
+        in_cell.or(below).filter(|unit| !unit.is_empty())
+    }
+
+    /// What to say of a column's unit, if anything.
+    fn remark(&self, quantity: Quantity, index: usize, unit: &Unit) -> Option<String> {
+        if let Some(remark) = unit.remark {
+            return Some(format!("{}: {remark}", self.name(index)));
+        }
+        let other = self.written_unit(index).filter(|written| {
+            self.options.unit(quantity).is_some()
+                && unit::find(written, quantity.dimension()) != Some(unit)
+        })?;
+        let name = self.name(index);
+        Some(format!(
+            "{name}: read in {} as --units says, not in {other}",
+            unit.spelling
+        ))
     }
 
     /// Unit by `--units`, else by the header cell, else by the row below it.

@@ -20,8 +20,10 @@ pub(super) struct Seed {
     pub remaining: f64,
 }
 
-/// More Newton steps than the slowest case takes (a double root at full slip: one bit a step).
-const NEWTON_STEPS: usize = 80;
+/// More steps than the slowest case takes: a double root at a smooth full slip.
+const MOST_STEPS: usize = 80;
+/// Relative error of the inverse that is left uncorrected.
+const LAST_BIT: f64 = 0.25 * f64::EPSILON;
 
 impl Seed {
     /// `k Λ_0(ku)` of the power-law population alone \[N/m\], `0 ≤ u ≤ ū`: `(χ+2) A u^(χ+1)`.
@@ -61,8 +63,8 @@ impl VirginCurve for Seed {
         }
     }
 
-    /// Newton's method from `F/K_T`: G is concave and lies below `K_T u`, so the iterates rise to
-    /// the root without passing it; bracketed by ū.
+    /// Halley's method (Newton's, with the curvature that costs nothing here) from `F/K_T`, kept
+    /// between that and ū: G is concave and lies below `K_T u`.
     fn displacement(&self, force: f64) -> f64 {
         if force >= self.force_at_limit {
             return if self.remaining > 0.0 {
@@ -72,21 +74,34 @@ impl VirginCurve for Seed {
             };
         }
         let chi = self.exponent;
-        let mut slip = force / self.stiffness;
-        for _ in 0..NEWTON_STEPS {
+        let (mut low, mut high) = (force / self.stiffness, self.limit);
+        let mut slip = low;
+        for _ in 0..MOST_STEPS {
             let bent = self.bend * slip.powf(chi + 1.0);
             let slope = self.stiffness - (chi + 2.0) * bent;
-            let step = (force - slip * (self.stiffness - bent)) / slope;
-            let next = (slip + step).min(self.limit);
-            if next.is_nan() || next <= slip {
-                break;
+            let missing = force - slip * (self.stiffness - bent);
+            if missing > 0.0 {
+                low = slip;
+            } else if missing < 0.0 {
+                high = slip;
+            } else {
+                return slip;
             }
-            // The next step would be about G''/(2G') step²: below the last bit, it is not taken.
-            let next_step = (chi + 2.0) * (chi + 1.0) * bent / slip * step * step / slope;
+            // −G''/G' times the Newton step: how far from straight the curve is over the step.
+            let newton = missing / slope;
+            let turned = (chi + 2.0) * (chi + 1.0) * bent / (slip * slope) * newton;
+            let step = newton / (1.0 - 0.5 * turned);
+            let mut next = slip + step;
+            if !(low <= next && next <= high) {
+                next = 0.5 * (low + high);
+            } else if (turned * (turned.abs() + step.abs() / slip) * step).abs() < LAST_BIT * slip {
+                // What the third-order step leaves is below the last bit.
+                return next;
+            }
+            if next == slip {
+                return slip;
+            }
             slip = next;
-            if next_step < 0.25 * f64::EPSILON * slip {
-                break;
-            }
         }
         slip
     }

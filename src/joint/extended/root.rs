@@ -11,6 +11,17 @@ pub(super) struct Excess {
     pub noise: f64,
 }
 
+/// Lengths of a search.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scales {
+    /// First step where the slope gives none.
+    pub reach: f64,
+    /// How far a root may lie.
+    pub farthest: f64,
+    /// Rounding of the argument.
+    pub digit: f64,
+}
+
 /// Why there is no root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum NoRoot {
@@ -29,11 +40,14 @@ const EVALUATIONS: usize = 400;
 
 /// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
 /// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
-/// Gives up beyond `farthest` from `start`.
+/// Steps within `digit` are none; gives up beyond `farthest` from `start`.
 pub(super) fn rising_root(
     start: f64,
-    mut reach: f64,
-    farthest: f64,
+    Scales {
+        mut reach,
+        farthest,
+        digit,
+    }: Scales,
     mut excess: impl FnMut(f64) -> Excess,
 ) -> Result<f64, NoRoot> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -57,7 +71,7 @@ pub(super) fn rising_root(
             high = point
         }
         let newton = point - here.value / here.slope;
-        if newton == point {
+        if (newton - point).abs() <= digit {
             return Ok(point);
         }
         point = if low.is_finite() && high.is_finite() {
@@ -96,6 +110,12 @@ pub(super) fn rising_root(
 mod tests {
     use super::*;
 
+    const FREE: Scales = Scales {
+        reach: 1.0,
+        farthest: 1e12,
+        digit: 0.0,
+    };
+
     fn line_with_kink(x: f64) -> Excess {
         let (value, slope) = if x < 1.0 {
             (x, 1.0)
@@ -111,7 +131,7 @@ mod tests {
 
     #[test]
     fn crosses_a_kink_into_a_near_plateau() {
-        let root = rising_root(0.0, 1.0, 1e300, line_with_kink);
+        let root = rising_root(0.0, FREE, line_with_kink);
         assert!(
             root.is_ok_and(|x| (x - 500_000_001.0).abs() < 1e-6 * x),
             "{root:?}"
@@ -120,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_plateau_without_end_is_out_of_reach() {
-        let root = rising_root(0.0, 1.0, 1e12, |x| {
+        let root = rising_root(0.0, FREE, |x| {
             let inside = x.abs() < 1.0;
             let slope = if inside { 1.0 } else { 0.0 };
             Excess {
@@ -135,7 +155,7 @@ mod tests {
     #[test]
     fn a_jump_is_found_to_the_last_digit() {
         let jump = 0.3;
-        let root = rising_root(0.0, 1.0, 1e12, |x| Excess {
+        let root = rising_root(0.0, FREE, |x| Excess {
             value: if x < jump { -1.0 + x } else { 1.0 + x },
             slope: 1.0,
             noise: 1e-16,
@@ -148,7 +168,7 @@ mod tests {
 
     #[test]
     fn no_number_is_said_so() {
-        let root = rising_root(0.0, 1.0, 1.0, |_| Excess {
+        let root = rising_root(0.0, FREE, |_| Excess {
             value: f64::NAN,
             slope: 1.0,
             noise: 0.0,

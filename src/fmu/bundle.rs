@@ -1,0 +1,50 @@
+//! What the archive's folder `resources` holds: the joint.
+
+use super::location;
+use super::refusal::Refusal;
+use crate::joint::{Drive, Joint};
+use crate::saved;
+use crate::variables::{drive_of, guid};
+use std::path::PathBuf;
+
+/// The joint of an archive and the drive for which it was exported.
+#[derive(Debug)]
+pub struct Bundle {
+    /// The joint as exported.
+    pub joint: Joint,
+    /// Which quantity is the input.
+    pub drive: Drive,
+    /// GUID of joint and drive; saved states carry it.
+    pub guid: String,
+}
+
+impl Bundle {
+    /// Reads `joint.json` at the location and holds the GUID of the XML against it.
+    pub fn read(location: &str, came: &str) -> Result<Bundle, Refusal> {
+        let (path, text) = joint_json(location)?;
+        let drive = drive_of(&text, came).ok_or_else(|| Refusal::WrongGuid {
+            force_driven: guid(&text, Drive::Force),
+            displacement_driven: guid(&text, Drive::Displacement),
+            came: came.to_owned(),
+        })?;
+        let joint = saved::read(&text, &path.display().to_string())?.joint;
+        Ok(Bundle {
+            joint,
+            drive,
+            guid: came.to_owned(),
+        })
+    }
+}
+
+/// Path and text of the first `joint.json` that can be read.
+fn joint_json(location: &str) -> Result<(PathBuf, String), Refusal> {
+    let mut refusal = Refusal::NoLocation;
+    for folder in location::folders(location)? {
+        let path = folder.join("joint.json");
+        match std::fs::read_to_string(&path) {
+            Ok(text) => return Ok((path, text)),
+            Err(error) => refusal = Refusal::Unreadable { path, error },
+        }
+    }
+    Err(refusal)
+}

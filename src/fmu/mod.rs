@@ -1,0 +1,31 @@
+//! The C boundary: FMI 2.0 for co-simulation, complete, and the only `unsafe` of the project.
+//!
+//! An exported function takes three to six lines: it names itself, and [`entry`] checks handle and
+//! call order against the one table in [`calls`], holds any panic, and logs any refusal. Pointers
+//! become slices and texts in [`pointers`]; everything behind is safe Rust on an
+//! [`instance::Instance`]. Outputs are written only on success. There are no globals.
+
+mod bundle;
+mod c_types;
+mod calls;
+mod cosimulation;
+mod entry;
+mod instance;
+mod lifecycle;
+mod location;
+mod logger;
+mod pointers;
+mod refusal;
+mod snapshot;
+mod states;
+mod stepping;
+mod values;
+mod variable_access;
+
+pub use c_types::{
+    CallbackFunctions, Component, FALSE, FmuState, Logger, Status, StatusKind, TRUE, Type,
+};
+pub use cosimulation::*;
+pub use lifecycle::*;
+pub use states::*;
+pub use variable_access::*;

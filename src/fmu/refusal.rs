@@ -1,0 +1,132 @@
+//! Why a call was refused: what was expected and what came.
+
+use super::calls::Mode;
+use super::location::LocationError;
+use super::snapshot::SnapshotError;
+use crate::joint::JointError;
+use crate::saved::SavedError;
+use crate::variables::VariableError;
+use std::path::PathBuf;
+
+/// Why a call was refused. The message that reaches the host is `function: refusal`.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// Called out of order.
+    #[error("expected mode {expected}, came in mode {}", came.name())]
+    WrongMode { expected: String, came: Mode },
+    /// NULL where something must be.
+    #[error("{argument}: expected a pointer, came NULL")]
+    NullPointer { argument: &'static str },
+    /// A pointer that cannot point to its type.
+    #[error("{argument}: expected an aligned pointer, came a misaligned one")]
+    Misaligned { argument: &'static str },
+    /// A count beyond the address space.
+    #[error("{argument}: expected at most {largest} items, came {count}")]
+    TooMany {
+        argument: &'static str,
+        count: usize,
+        largest: usize,
+    },
+    /// A text in another encoding.
+    #[error("{argument}: expected UTF-8, came other bytes")]
+    NotUtf8 { argument: &'static str },
+    /// Model exchange, or a number that is no type.
+    #[error("fmuType: expected 1 (co-simulation), came {came}")]
+    NotCoSimulation { came: i32 },
+    /// XML and joint from different exports.
+    #[error(
+        "fmuGUID: expected {force_driven} or {displacement_driven}, as resources/joint.json says, \
+         came {came}: the archive's parts belong to different exports"
+    )]
+    WrongGuid {
+        force_driven: String,
+        displacement_driven: String,
+        came: String,
+    },
+    /// No location.
+    #[error(
+        "fmuResourceLocation: expected the URI of the folder `resources`, came NULL: the joint is \
+         in resources/joint.json"
+    )]
+    NoLocation,
+    /// A location that is not understood.
+    #[error(transparent)]
+    Location(#[from] LocationError),
+    /// joint.json is not there or not readable.
+    #[error("expected the joint in {path}, came: {error}")]
+    Unreadable {
+        path: PathBuf,
+        error: std::io::Error,
+    },
+    /// joint.json is no joint.
+    #[error(transparent)]
+    Saved(#[from] SavedError),
+    /// The joint cannot be shown.
+    #[error(transparent)]
+    Variables(#[from] VariableError),
+    /// The physics refuses.
+    #[error(transparent)]
+    Joint(#[from] JointError),
+    /// A saved state that does not fit.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+    /// A reference that no variable has.
+    #[error("expected the reference of a {expected} variable, came {came}")]
+    UnknownReference { expected: &'static str, came: u32 },
+    /// A variable that is not for setting.
+    #[error("expected an input or, before the first step, a parameter; came {causality} `{name}`")]
+    NotSettable {
+        name: String,
+        causality: &'static str,
+    },
+    /// A parameter after the start.
+    #[error(
+        "expected parameter `{name}` before fmi2ExitInitializationMode: it is fixed afterwards"
+    )]
+    Fixed { name: String },
+    /// A value outside its bounds, or no number.
+    #[error("`{name}`: expected a number from {lower} to {upper}, came {came}")]
+    OutOfRange {
+        name: String,
+        lower: f64,
+        upper: f64,
+        came: f64,
+    },
+    /// A derivative of something else than the input.
+    #[error("expected the reference of the input, came {came}")]
+    NotInput { came: u32 },
+    /// A derivative that is not used.
+    #[error("expected an order from 1 to {largest}, came {came}")]
+    Order { largest: usize, came: i32 },
+    /// A service that modelDescription.xml does not offer.
+    #[error("expected no call: {capability} is false in modelDescription.xml")]
+    NotOffered { capability: &'static str },
+    /// A step that cannot be.
+    #[error("communicationStepSize: expected a finite number from 0 on, came {came}")]
+    StepSize { came: f64 },
+    /// A step from elsewhere.
+    #[error("currentCommunicationPoint: expected {expected} s (to {tolerance:e} s), came {came} s")]
+    CommunicationPoint {
+        expected: f64,
+        tolerance: f64,
+        came: f64,
+    },
+    /// A step past the end.
+    #[error("expected a step that ends by the stop time {stop} s, came one to {came} s")]
+    PastStop { stop: f64, came: f64 },
+    /// Times of an experiment that cannot be.
+    #[error("expected finite times with stop after start, came start {start} s, stop {stop:?} s")]
+    Times { start: f64, stop: Option<f64> },
+    /// A status that is not asked like this.
+    #[error("expected status kind {expected}, came {came}")]
+    StatusKind { expected: &'static str, came: i32 },
+    /// A category that the XML does not list.
+    #[error("expected category logStatusError or logEvents, came `{came}`")]
+    Category { came: String },
+    /// A buffer too small for a state.
+    #[error("size: expected at least {expected} bytes, came {came}")]
+    Buffer { expected: usize, came: usize },
+    /// A panic that was held: a defect of this library.
+    #[error("a defect in the joint's library was held: {message}; the instance needs fmi2Reset")]
+    Defect { message: String },
+}

@@ -1,0 +1,224 @@
+//! Saved states: fmi2GetFMUstate to fmi2DeSerializeFMUstate.
+
+use super::c_types::{Component, FmuState, Status};
+use super::calls;
+use super::entry::call;
+use super::instance::{Instance, Motion};
+use super::pointers::{self, Destination};
+use super::refusal::Refusal;
+use super::snapshot::{Snapshot, SnapshotError};
+use super::stepping::InputDerivatives;
+use crate::joint::Simulation;
+use libc::{c_char, size_t};
+
+impl Instance {
+    /// The complete state.
+    fn snapshot(&self) -> Snapshot {
+        let motion = &self.motion;
+        Snapshot {
+            guid: self.guid.clone(),
+            mode: self.mode,
+            time: motion.time,
+            stop: motion.stop,
+            input: motion.input,
+            derivatives: motion.derivatives.0,
+            dissipation_rate: motion.dissipation_rate,
+            parameters: self.parameters.clone(),
+            simulation: motion.simulation.as_ref().map(Simulation::state),
+        }
+    }
+
+    /// Puts back a state of the same joint, mode included; on a refusal nothing changes.
+    fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
+        self.check(snapshot)?;
+        let simulation = snapshot.simulation.as_ref().map(|state| {
+            let mut simulation = match &self.motion.simulation {
+                // With the same parameters the tables of the joint need not be made again.
+                Some(simulation) if snapshot.parameters == self.parameters => simulation.clone(),
+                _ => {
+                    let joint = self.variables.apply(&self.exported, &snapshot.parameters)?;
+                    Simulation::new(&joint, self.drive)?
+                }
+            };
+            simulation.restore(state).map(|()| simulation)
+        });
+        let simulation = simulation.transpose()?;
+        self.parameters.clone_from(&snapshot.parameters);
+        self.mode = snapshot.mode;
+        self.motion = Motion {
+            time: snapshot.time,
+            stop: snapshot.stop,
+            input: snapshot.input,
+            derivatives: InputDerivatives(snapshot.derivatives),
+            simulation,
+            dissipation_rate: snapshot.dissipation_rate,
+        };
+        Ok(())
+    }
+
+    /// Holds a state against this joint.
+    fn check(&self, snapshot: &Snapshot) -> Result<(), SnapshotError> {
+        if snapshot.guid != self.guid {
+            return Err(SnapshotError::OtherJoint {
+                expected: self.guid.clone(),
+                came: snapshot.guid.clone(),
+            });
+        }
+        let (expected, came) = (self.parameters.len(), snapshot.parameters.len());
+        if expected != came {
+            return Err(SnapshotError::Parameters { expected, came });
+        }
+        Ok(())
+    }
+}
+
+/// The state behind a handle.
+///
+/// # Safety
+/// `state` is NULL or came from fmi2GetFMUstate or fmi2DeSerializeFMUstate and is not freed yet.
+unsafe fn saved<'a>(state: FmuState) -> Result<&'a Snapshot, Refusal> {
+    // SAFETY: not NULL, it points to a snapshot that `keep` made, by this function's contract.
+    unsafe { state.cast::<Snapshot>().as_ref() }.ok_or(Refusal::NullPointer {
+        argument: "FMUstate",
+    })
+}
+
+/// Puts a state behind a handle: the one that is there already, or a new one where it is NULL.
+///
+/// # Safety
+/// `handle` may be written; what it holds is NULL or a state as for [`saved`].
+unsafe fn keep(handle: *mut FmuState, snapshot: Snapshot) {
+    // SAFETY: the handle may be read and written, and a state in it is ours, by this function's
+    // contract; the box goes to the host, which gives it back to fmi2FreeFMUstate.
+    unsafe {
+        match (*handle).cast::<Snapshot>().as_mut() {
+            Some(place) => *place = snapshot,
+            None => *handle = Box::into_raw(Box::new(snapshot)).cast(),
+        }
+    }
+}
+
+/// Saves the complete state; a handle that holds a state already is used again.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuState) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host gives one place for a handle; `keep` writes it where it is not NULL.
+        unsafe {
+            Destination::new("FMUstate", state, 1)?;
+            keep(state, instance.snapshot());
+        }
+        Ok(())
+    };
+    // SAFETY: handle as the standard asks.
+    unsafe { call(component, calls::GET_FMU_STATE, body) }
+}
+
+/// Continues from a saved state, in its mode.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and `state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
+    // SAFETY: handles as the standard asks.
+    unsafe {
+        call(component, calls::SET_FMU_STATE, |instance| {
+            instance.restore(saved(state)?)
+        })
+    }
+}
+
+/// Frees a saved state and makes its handle NULL; NULL is legal.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuState) -> Status {
+    let body = |_: &mut Instance| {
+        // SAFETY: the host gives NULL or a handle; what it holds was made by `keep` and is freed
+        // once, since the handle is NULL afterwards.
+        unsafe {
+            if let Some(handle) = state.as_mut()
+                && !handle.is_null()
+            {
+                drop(Box::from_raw(handle.cast::<Snapshot>()));
+                *handle = std::ptr::null_mut();
+            }
+        }
+        Ok(())
+    };
+    // SAFETY: handle as the standard asks.
+    unsafe { call(component, calls::FREE_FMU_STATE, body) }
+}
+
+/// Count of bytes that fmi2SerializeFMUstate needs for this state.
+///
+/// # Safety
+/// As the FMI standard asks: handles of this library, `size` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    component: Component,
+    state: FmuState,
+    size: *mut size_t,
+) -> Status {
+    // SAFETY: handles and place as the standard asks.
+    let body = |_: &mut Instance| unsafe {
+        Destination::new("size", size, 1)?.write(&[saved(state)?.length()]);
+        Ok(())
+    };
+    // SAFETY: handle as the standard asks.
+    unsafe { call(component, calls::SERIALIZED_FMU_STATE_SIZE, body) }
+}
+
+/// Writes a saved state as bytes that another process, on another machine, can read.
+///
+/// # Safety
+/// As the FMI standard asks: handles of this library, `size` bytes at `bytes` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    component: Component,
+    state: FmuState,
+    bytes: *mut c_char,
+    size: size_t,
+) -> Status {
+    // SAFETY: handles and places as the standard asks.
+    let body = |_: &mut Instance| unsafe {
+        let expected = saved(state)?.length();
+        if size < expected {
+            return Err(Refusal::Buffer {
+                expected,
+                came: size,
+            });
+        }
+        Destination::new("serializedState", bytes.cast(), size)?.write(&saved(state)?.to_bytes());
+        Ok(())
+    };
+    // SAFETY: handle as the standard asks.
+    unsafe { call(component, calls::SERIALIZE_FMU_STATE, body) }
+}
+
+/// Makes a saved state of bytes; a handle that holds a state already is used again.
+///
+/// # Safety
+/// As the FMI standard asks: handles of this library, `size` bytes at `bytes` may be read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    component: Component,
+    bytes: *const c_char,
+    size: size_t,
+    state: *mut FmuState,
+) -> Status {
+    // SAFETY: handles and bytes as the standard asks.
+    let body = |instance: &mut Instance| unsafe {
+        Destination::new("FMUstate", state, 1)?;
+        let snapshot =
+            Snapshot::from_bytes(pointers::slice("serializedState", bytes.cast(), size)?)?;
+        instance.check(&snapshot)?;
+        keep(state, snapshot);
+        Ok(())
+    };
+    // SAFETY: handle as the standard asks.
+    unsafe { call(component, calls::DESERIALIZE_FMU_STATE, body) }
+}

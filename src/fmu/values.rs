@@ -1,0 +1,144 @@
+//! Values of variables by reference.
+
+use super::calls::Mode;
+use super::instance::Instance;
+use super::refusal::Refusal;
+use crate::joint::Output;
+use crate::variables::{Causality, Place, Signal, Variable};
+
+/// What a reference means.
+enum Found<'a> {
+    Input(&'a Variable),
+    Answer(Signal, &'a Variable),
+    /// With its place among the parameters.
+    Parameter(usize, &'a Variable),
+}
+
+impl Instance {
+    /// Values [SI] of the variables with these references, in order.
+    pub fn reals(&mut self, references: &[u32]) -> Result<Vec<f64>, Refusal> {
+        // The answer is only asked of the physics where a reference needs it.
+        let mut answer = None;
+        let mut values = Vec::with_capacity(references.len());
+        for &reference in references {
+            let value = match self.find(reference)? {
+                Found::Parameter(index, _) => self.parameters[index],
+                Found::Input(_) => self.motion.input,
+                Found::Answer(signal, _) => {
+                    let output = match answer {
+                        Some(output) => output,
+                        None => *answer.insert(self.answer()?),
+                    };
+                    signal_of(&output, signal)
+                }
+            };
+            values.push(value);
+        }
+        Ok(values)
+    }
+
+    /// Sets inputs, and parameters before the start; all of them or, on a refusal, none.
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
+        for (&reference, &value) in references.iter().zip(values) {
+            self.check_settable(reference, value)?;
+        }
+        for (&reference, &value) in references.iter().zip(values) {
+            match self.find(reference)? {
+                Found::Parameter(index, _) => self.parameters[index] = value,
+                _ => self.motion.input = value,
+            }
+        }
+        if self.mode != Mode::Stepping {
+            self.motion.simulation = None;
+        }
+        Ok(())
+    }
+
+    fn check_settable(&self, reference: u32, value: f64) -> Result<(), Refusal> {
+        let variable = match self.find(reference)? {
+            Found::Input(variable) => variable,
+            Found::Parameter(_, variable) if self.mode != Mode::Stepping => variable,
+            Found::Parameter(_, variable) => {
+                return Err(Refusal::Fixed {
+                    name: variable.name.clone(),
+                });
+            }
+            Found::Answer(_, variable) => {
+                let causality = variable.causality.name();
+                return Err(Refusal::NotSettable {
+                    name: variable.name.clone(),
+                    causality,
+                });
+            }
+        };
+        let Variable { lower, upper, .. } = *variable;
+        if !value.is_finite() || value < lower || value > upper {
+            let name = variable.name.clone();
+            return Err(Refusal::OutOfRange {
+                name,
+                lower,
+                upper,
+                came: value,
+            });
+        }
+        Ok(())
+    }
+
+    /// The variable with this reference.
+    fn find(&self, reference: u32) -> Result<Found<'_>, Refusal> {
+        let is_it = |variable: &&Variable| variable.reference == reference;
+        if let Some(variable) = self.variables.signals.iter().find(is_it)
+            && let Place::Signal(signal) = variable.place
+        {
+            return Ok(match variable.causality {
+                Causality::Input => Found::Input(variable),
+                _ => Found::Answer(signal, variable),
+            });
+        }
+        let mut parameters = self.variables.parameters.iter().enumerate();
+        parameters
+            .find(|(_, variable)| is_it(variable))
+            .map(|(index, variable)| Found::Parameter(index, variable))
+            .ok_or(Refusal::UnknownReference {
+                expected: "Real",
+                came: reference,
+            })
+    }
+
+    /// The input, if this is its reference.
+    pub(super) fn input_variable(&self, reference: u32) -> Result<&Variable, Refusal> {
+        match self.find(reference)? {
+            Found::Input(variable) => Ok(variable),
+            _ => Err(Refusal::NotInput { came: reference }),
+        }
+    }
+
+    /// What the joint answers now.
+    fn answer(&mut self) -> Result<Output, Refusal> {
+        let output = match self.mode {
+            Mode::Initialization => self.initial()?.output(),
+            _ => self
+                .motion
+                .simulation
+                .as_ref()
+                .map(|s| s.output())
+                .unwrap_or_default(),
+        };
+        Ok(Output {
+            dissipation_rate: self.motion.dissipation_rate,
+            ..output
+        })
+    }
+}
+
+fn signal_of(output: &Output, signal: Signal) -> f64 {
+    match signal {
+        Signal::Force => output.force,
+        Signal::Displacement => output.displacement,
+        Signal::Dissipation => output.dissipation,
+        Signal::DissipationRate => output.dissipation_rate,
+        Signal::StoredEnergy => output.stored_energy,
+        Signal::SlipDisplacement => output.slip_displacement,
+        Signal::TangentStiffness => output.tangent_stiffness,
+    }
+}

@@ -1,0 +1,151 @@
+//! The .fmu archive: modelDescription.xml, documentation, the joint, the shared libraries.
+
+mod documentation;
+mod error;
+mod library;
+mod model_description;
+mod unit;
+
+pub use error::PackError;
+pub use library::{BUILD_COMMAND, Library, VARIABLE};
+
+use crate::joint::{Drive, Joint};
+use crate::saved;
+use crate::variables::{Variables, guid};
+use std::io::{Cursor, Write};
+use zip::write::{SimpleFileOptions, ZipWriter};
+
+/// The entries of an archive; the same joint, drive and libraries give the same bytes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Archive {
+    entries: Vec<(String, Vec<u8>)>,
+}
+
+impl Archive {
+    /// Makes the archive of the text of a joint.json; `file` only names it in messages.
+    ///
+    /// # Errors
+    /// A text that is no joint, a joint that FMI variables cannot show, two libraries for one
+    /// platform.
+    pub fn new(
+        joint_json: &str,
+        file: &str,
+        drive: Drive,
+        libraries: &[Library],
+    ) -> Result<Archive, PackError> {
+        let joint = saved::read(joint_json, file)?.joint;
+        let variables = Variables::of(&joint, drive)?;
+        check_starts(&variables, &joint)?;
+        check_platforms(libraries)?;
+        let guid = guid(joint_json, drive);
+        let xml = model_description::xml(&joint, drive, &variables, &guid).map_err(|error| {
+            PackError::Entry {
+                name: "modelDescription.xml".to_owned(),
+                error,
+            }
+        })?;
+        let page = documentation::html(&joint, drive, &variables, &guid);
+        let mut entries = vec![
+            ("modelDescription.xml".to_owned(), xml),
+            ("documentation/index.html".to_owned(), page.into_bytes()),
+            (
+                "resources/joint.json".to_owned(),
+                joint_json.as_bytes().to_vec(),
+            ),
+        ];
+        entries.extend(
+            libraries
+                .iter()
+                .map(|library| (library.entry(), library.bytes.clone())),
+        );
+        Ok(Archive { entries })
+    }
+
+    /// The archive as a zip file.
+    ///
+    /// # Errors
+    /// [`PackError::Entry`] where the format cannot hold an entry, e.g. one beyond 4 GB.
+    pub fn bytes(&self) -> Result<Vec<u8>, PackError> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, bytes) in &self.entries {
+            let permissions = if name.starts_with("binaries/") {
+                0o755
+            } else {
+                0o644
+            };
+            // The time of an entry stays at the format's zero: equal content, equal archive.
+            let options = SimpleFileOptions::default()
+                .compression_method(zip::CompressionMethod::Deflated)
+                .last_modified_time(zip::DateTime::default())
+                .unix_permissions(permissions);
+            let refuse = |error: std::io::Error| PackError::Entry {
+                name: name.clone(),
+                error,
+            };
+            zip.start_file(name.as_str(), options)
+                .map_err(|e| refuse(e.into()))?;
+            zip.write_all(bytes).map_err(refuse)?;
+        }
+        let refuse = |error: zip::result::ZipError| PackError::Entry {
+            name: "the archive's directory".to_owned(),
+            error: error.into(),
+        };
+        Ok(zip.finish().map_err(refuse)?.into_inner())
+    }
+
+    /// Names of the entries, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|(name, _)| name.as_str())
+    }
+}
+
+fn check_starts(variables: &Variables, joint: &Joint) -> Result<(), PackError> {
+    for variable in &variables.parameters {
+        let value = variable.start(joint).unwrap_or_default();
+        if !(variable.lower..=variable.upper).contains(&value) {
+            return Err(PackError::StartOutOfBounds {
+                name: variable.name.clone(),
+                value,
+                lower: variable.lower,
+                upper: variable.upper,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_platforms(libraries: &[Library]) -> Result<(), PackError> {
+    for (index, library) in libraries.iter().enumerate() {
+        let twin = libraries[..index]
+            .iter()
+            .find(|other| other.platform == library.platform);
+        if let Some(other) = twin {
+            return Err(PackError::PlatformTwice {
+                platform: library.platform,
+                first: other.path.clone(),
+                second: library.path.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The joint in one sentence, e.g. `Iwan joint, four_parameter density, driven in force, with
+/// pinning`.
+fn description(joint: &Joint, drive: Drive) -> String {
+    let drive = match drive {
+        Drive::Force => "force",
+        Drive::Displacement => "displacement",
+    };
+    let causes: Vec<_> = joint
+        .effects
+        .iter()
+        .map(|acting| acting.effect.name())
+        .collect();
+    let with = if causes.is_empty() { "" } else { ", with " };
+    let family = joint.density.family();
+    format!(
+        "Iwan joint, {family} density, driven in {drive}{with}{}",
+        causes.join(", ")
+    )
+}
