@@ -11,7 +11,6 @@ type Call = fn(&Unit) -> Status;
 const INSTANTIATED: usize = 0;
 const INITIALIZATION: usize = 1;
 const STEPPING: usize = 2;
-const TERMINATED: usize = 3;
 
 fn unit_in(mode: usize, resources: &Resources) -> Unit {
     match mode {
@@ -26,7 +25,7 @@ fn unit_in(mode: usize, resources: &Resources) -> Unit {
     }
 }
 
-/// FMI 2.0.4, section 4.2.4: columns instantiated, initialization, step complete, terminated.
+/// FMI 2.0.4, section 4.2.4: columns instantiated, initialization, step complete, terminated (3).
 #[rustfmt::skip]
 const TABLE: &[(&str, [bool; 4], Call)] = {
     const Y: bool = true;

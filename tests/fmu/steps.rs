@@ -67,7 +67,13 @@ fn impossible_steps_are_refused_and_tiny_ones_are_fine() {
     assert_eq!(unit.get(&ANSWERS), answer);
     for size in [0.0, 1e-17, 1.4e-17, 0.0] {
         unit.ok(unit.step(0.01, size));
-        assert_eq!(unit.get(&ANSWERS)[..2], answer[..2]);
+        // A step of some units in the last place of the time is a step: rounding may differ.
+        for (found, before) in unit.get(&ANSWERS)[..2].iter().zip(&answer) {
+            assert!(
+                (found - before).abs() <= 1e-12 * before.abs(),
+                "{size}: {found} {before}"
+            );
+        }
     }
     // Importers that sum their steps come back 1e-9 late or early.
     unit.ok(unit.step(0.01 + 1e-9, 0.01));

@@ -134,15 +134,17 @@ fn values_out_of_bounds_are_refused_all_or_none() {
     );
 }
 
-/// Parameters that are fine one by one and not together: told when the joint is made of them.
+/// Start values that are fine one by one and not together: told when the joint is made of them,
+/// and mended by setting either.
 #[test]
-fn a_joint_that_cannot_be_is_told_at_the_end_of_initialization() {
-    let resources = Resources::new(include_str!("../../examples/table1_case1.json"));
+fn a_start_that_cannot_be_is_told_at_the_end_of_initialization() {
+    let resources = Resources::new(BOLT);
     let unit = Unit::initializing(&resources, Drive::Force);
-    unit.ok(unit.set(FORCE, 1e12));
+    unit.ok(unit.set(FORCE, 2000.0));
     let told = unit.error(unsafe { fmi2ExitInitializationMode(unit.handle) });
     assert!(told.starts_with("fmi2ExitInitializationMode: "), "{told}");
-    unit.ok(unit.set(FORCE, 0.0));
+    assert!(told.contains("full slip at 1000 N"), "{told}");
+    unit.ok(unit.set(SLIP_FORCE, 3000.0));
     unit.ok(unsafe { fmi2ExitInitializationMode(unit.handle) });
 }
 
