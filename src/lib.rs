@@ -20,4 +20,6 @@ pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
 pub mod saved;
+#[cfg(feature = "tool")]
+pub mod report;
 pub mod variables;

@@ -57,7 +57,10 @@ impl Folder {
                 "{arguments:?}: no `{word}` in: {message}"
             );
         }
-        assert!(!message.contains("defect"), "{arguments:?}: {message}");
+        assert!(
+            !message.contains("iwan: defect"),
+            "{arguments:?}: {message}"
+        );
         assert_eq!(
             self.content(),
             before,

@@ -28,11 +28,6 @@ fn history(name: &str, content: impl AsRef<[u8]>) -> Record {
     history_by(name, content, &Options::default())
 }
 
-fn refused(name: &str, content: impl AsRef<[u8]>) -> ReadError {
-    let path = written(name, content.as_ref());
-    read::file(&path, &Options::default()).expect_err("a bad file is refused")
-}
-
 fn options(columns: &str, units: &str) -> Options {
     Options::from_arguments(Some(columns), Some(units)).expect("good options")
 }
@@ -259,35 +254,6 @@ fn foreign_files_are_read_by_their_columns() {
 }
 
 #[test]
-fn options_that_make_no_sense_are_refused() {
-    for (columns, units) in [
-        (Some("force"), None),
-        (Some("weight=2"), None),
-        (Some("force=0"), None),
-        (Some("force=1,load=2"), None),
-        (None, Some("force=mm")),
-        (None, Some("force=furlong")),
-    ] {
-        let refusal = Options::from_arguments(columns, units);
-        assert!(
-            matches!(refusal, Err(ReadError::Option { .. })),
-            "{columns:?} {units:?}"
-        );
-    }
-    let beyond = read::file(
-        &written("narrow.csv", b"F [N],u [m]\n1,2\n"),
-        &options("force=1,displacement=3", "force=N,displacement=m"),
-    );
-    let Err(error @ ReadError::NoSuchColumn { .. }) = beyond else {
-        panic!("{beyond:?}")
-    };
-    assert!(
-        error.to_string().contains("1 `F [N]`, 2 `u [m]`"),
-        "{error}"
-    );
-}
-
-#[test]
 fn amplitude_tables_are_read() {
     let content = "# resonance test\nFrequency (Hz);Dissipation (mJ);Force Amplitude (kN);u0 (um)\n\
                    80,5;2;0,1;5\n80;31;0,2;10\n";
@@ -304,154 +270,6 @@ fn amplitude_tables_are_read() {
         frequency: Some(vec![80.5, 80.0]),
     };
     assert_eq!(loaded.measurement, Measurement::Amplitudes(expected));
-}
-
-#[test]
-fn a_refusal_names_line_column_and_value() {
-    let header = "# rig\ntime [s],force [N],displacement [mm]\n";
-    let cases: &[(&str, &str, &[&str])] = &[
-        (
-            "0,1,2\n1,abc,2\n",
-            "text",
-            &["line 4", "column 2 `force [N]`", "`abc`"],
-        ),
-        (
-            "0,1,2\n1,1,NaN\n",
-            "nan",
-            &["line 4", "column 3 `displacement [mm]`", "`NaN`"],
-        ),
-        (
-            "0,1,2\n1,-inf,2\n",
-            "inf",
-            &["line 4", "column 2", "`-inf`"],
-        ),
-        (
-            "0,1,2\n1,1e999,2\n",
-            "overflow",
-            &["line 4", "column 2", "`1e999`"],
-        ),
-        (
-            "0,1,2\n# gap\n\n1,,2\n",
-            "gap",
-            &["line 6", "column 2", "empty"],
-        ),
-        ("0,1,2\n,,\n1,2,3\n", "blank", &["line 4", "empty"]),
-        (
-            "0,1,2\n1,2\n",
-            "short",
-            &["line 4", "2 columns", "3", "`1,2`"],
-        ),
-        ("0,1,2\n1,2,3,4\n", "long", &["line 4", "4 columns", "3"]),
-        (
-            "0,1,2\n2,1,2\n1,1,2\n",
-            "back",
-            &["line 5", "column 1", "from 2 s to 1 s"],
-        ),
-        (
-            "0,1,2\n0,1,2\n",
-            "twice",
-            &["line 4", "column 1", "time 0 s"],
-        ),
-        ("", "none", &["line 2", "no row"]),
-    ];
-    for (rows, name, words) in cases {
-        let error = refused(&format!("refused {name}.csv"), format!("{header}{rows}")).to_string();
-        assert!(error.contains(&format!("refused {name}.csv")), "{error}");
-        for word in *words {
-            assert!(
-                error.contains(word),
-                "{name}: `{word}` is missing in: {error}"
-            );
-        }
-    }
-}
-
-#[test]
-fn a_refused_header_says_what_would_do() {
-    let cases: &[(&str, &str, &[&str])] = &[
-        ("", "empty", &["empty"]),
-        ("# only\n\n# comments\n", "comments", &["empty"]),
-        ("force [N]\n1\n2\n", "one", &["line 1", "one column"]),
-        ("1,2\n3,4\n", "bare", &["line 1", "header", "--columns"]),
-        (
-            "time [s],force [furlong],displacement [m]\n0,1,2\n",
-            "unknown",
-            &["column 2", "furlong", "kN"],
-        ),
-        (
-            "time [s],force [mm],displacement [m]\n0,1,2\n",
-            "other",
-            &["column 2", "`mm`", "length"],
-        ),
-        (
-            "time [s],force [mn],displacement [m]\n0,1,2\n",
-            "mn",
-            &["column 2", "unknown unit `mn`"],
-        ),
-        (
-            "time,force [N],displacement [m]\n0,1,2\n",
-            "no unit",
-            &["column 1", "--units time=s"],
-        ),
-        (
-            "time [s],force [N],strain\n0,1,2\n",
-            "no u",
-            &["no column displacement", "3 `strain`"],
-        ),
-        (
-            "force [N],u [m],disp [m]\n0,1,2\n",
-            "two",
-            &["column 3 `disp [m]`", "column 2 `u [m]`"],
-        ),
-        (
-            "force amplitude [N],frequency [Hz]\n0,1\n",
-            "no D",
-            &["no column dissipation"],
-        ),
-        (
-            "force amplitude [N],dissipation [J]\n1,-1\n",
-            "sign",
-            &["line 2", "-1", "negative"],
-        ),
-        (
-            "t [s];F [N];u [m]\n0;1,5;2.5\n",
-            "mixed",
-            &["line 2", "column 3", "mixes"],
-        ),
-        (
-            "t [s];F [N];u [m]\n0;1.000,5;2\n",
-            "thousands",
-            &["line 2", "column 2", "thousands"],
-        ),
-    ];
-    for (content, name, words) in cases {
-        let error = refused(&format!("header {name}.csv"), content).to_string();
-        for word in *words {
-            assert!(
-                error.contains(word),
-                "{name}: `{word}` is missing in: {error}"
-            );
-        }
-    }
-}
-
-#[test]
-fn what_is_no_text_file_is_refused() {
-    assert!(matches!(
-        refused("zip.csv", b"PK\x03\x04\0\0\x08\0"),
-        ReadError::Binary { .. }
-    ));
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let of_folder = read::file(folder, &Options::default());
-    assert!(
-        matches!(of_folder, Err(ReadError::Directory { .. })),
-        "{of_folder:?}"
-    );
-    let of_nothing = read::file(&folder.join("there is none.csv"), &Options::default());
-    assert!(
-        matches!(of_nothing, Err(ReadError::Missing { .. })),
-        "{of_nothing:?}"
-    );
 }
 
 #[test]
@@ -577,4 +395,28 @@ fn a_million_rows_are_read_in_seconds() {
     // around 1 s where nothing else runs; the bound leaves room for a loaded machine
     assert!(taken.as_secs_f64() < 10.0, "{taken:?}");
     std::fs::remove_file(path).expect("the test file");
+}
+
+#[test]
+fn what_was_assumed_is_said() {
+    let notes = |name: &str, content: &str, options: &Options| {
+        read::file(&written(name, content.as_bytes()), options)
+            .expect("a good file")
+            .notes
+    };
+    let said = |notes: &[String], words: &str| notes.iter().any(|note| note.contains(words));
+    let comma = notes(
+        "said 1.csv",
+        "F [tonf];u [mm]\n1,5;2\n3;4\n",
+        &Options::default(),
+    );
+    assert!(said(&comma, "decimal comma"), "{comma:?}");
+    assert!(said(&comma, "metric ton-force, 9806.65 N"), "{comma:?}");
+    assert!(said(&comma, "no time column"), "{comma:?}");
+    let prevailing = options("", "force=kN,displacement=mm");
+    let content = "t [s],F [N],u [mm]\n0,1,2\n1,3,4\n";
+    let units = notes("said 2.csv", content, &prevailing);
+    assert_eq!(units, ["F [N]: read in kN as --units says, not in N"]);
+    let plain = notes("said 3.csv", content, &Options::default());
+    assert!(plain.is_empty(), "{plain:?}");
 }

@@ -68,13 +68,18 @@ pub fn main() -> ExitCode {
             "iwan: the program is wrong here, not the input; please report the command line and this message"
         );
     }));
-    match catch_unwind(AssertUnwindSafe(|| run(&command))) {
-        Ok(Ok(())) => ExitCode::SUCCESS,
+    conclude(|| run(&command)).into()
+}
+
+/// The exit status of a run; says on stderr what went wrong (the panic hook has spoken already).
+fn conclude(run: impl FnOnce() -> anyhow::Result<()>) -> u8 {
+    match catch_unwind(AssertUnwindSafe(run)) {
+        Ok(Ok(())) => 0,
         Ok(Err(error)) => {
             eprintln!("iwan: {error:#}");
-            status(&error).into()
+            status(&error)
         }
-        Err(_) => DEFECT.into(),
+        Err(_) => DEFECT,
     }
 }
 
@@ -101,5 +106,37 @@ fn status(error: &anyhow::Error) -> u8 {
         BAD_INPUT
     } else {
         DEFECT
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::{Options, file};
+    use anyhow::Context;
+
+    #[test]
+    fn the_exit_status_tells_bad_input_from_defects() {
+        assert_eq!(conclude(|| Ok(())), 0);
+        assert_eq!(
+            conclude(|| anyhow::bail!("an error that no room knows")),
+            DEFECT
+        );
+        assert_eq!(conclude(|| panic!("a bug")), DEFECT);
+        assert_eq!(
+            conclude(|| Err(BadInput("no".into())).context("around it")),
+            BAD_INPUT
+        );
+        let unread = || file("there/is/none".as_ref(), &Options::default());
+        assert_eq!(
+            conclude(|| unread().map(drop).context("around it")),
+            BAD_INPUT
+        );
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        CommandLine::command().debug_assert();
     }
 }

@@ -1,5 +1,7 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
 pub mod findings;
+pub mod prepare;
+pub mod search;
 
 pub use findings::Findings;

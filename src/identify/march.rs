@@ -71,6 +71,11 @@ impl<'a> March<'a> {
         }
     }
 
+    /// Energy dissipated by the network so far [J].
+    pub fn dissipation(&self) -> f64 {
+        self.last.dissipation
+    }
+
     fn network_force(&self) -> f64 {
         self.last.force - self.beside_slip(self.last.slip).0
     }

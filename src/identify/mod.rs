@@ -1,13 +1,21 @@
-//! From a record to a joint: operator dictionary, non-negative least squares, joint refits.
+//! From records to a joint: the report's own procedure, the operator dictionary with its
+//! non-negative least squares and joint refits, the parametric families, and the intervals of what
+//! they give.
 
+pub mod family;
 pub mod fit;
+pub mod interval;
 pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
 pub mod score;
+pub mod seed;
 
+pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit};
+pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};
 pub use score::{Score, scores};
+pub use seed::{Seed, SeedError};

@@ -1,5 +1,6 @@
 //! Why a file was refused: where it stands, what stands there, and the way out.
 
+use super::quantity::Quantity;
 use std::path::{Path, PathBuf};
 
 /// A place in a table: file, line and column, both counted from 1.
@@ -118,7 +119,7 @@ pub enum ReadError {
     },
     /// Two columns for one quantity.
     #[error(
-        "{second}: column {first} `{first_name}` holds {quantity} too; choose one with --columns {quantity}={first}"
+        "{second}: column {first} `{first_name}` holds {quantity} too; name every column to use with --columns, such as {quantity}={first}"
     )]
     Twice {
         /// The later column.
@@ -128,7 +129,7 @@ pub enum ReadError {
         /// Its header.
         first_name: String,
         /// What both hold.
-        quantity: &'static str,
+        quantity: Quantity,
     },
     /// `--columns` points beyond the table.
     #[error(
@@ -141,7 +142,7 @@ pub enum ReadError {
         /// Line of the header.
         line: usize,
         /// What it should hold.
-        quantity: &'static str,
+        quantity: Quantity,
         /// The column asked for.
         choice: String,
         /// Columns there are.
@@ -155,12 +156,12 @@ pub enum ReadError {
         /// The header cell.
         spot: Spot,
         /// What it holds.
-        quantity: &'static str,
+        quantity: Quantity,
         /// A unit that would do.
         example: &'static str,
     },
     /// A unit that is not known, or one of another dimension.
-    #[error("{spot}: {}; known for {quantity}: {known}", unit_fault(.unit, .measures))]
+    #[error("{spot}: {}; known for {quantity}: {}", unit_fault(.unit, .measures), super::unit::known(*.quantity))]
     UnknownUnit {
         /// The header cell.
         spot: Spot,
@@ -169,9 +170,7 @@ pub enum ReadError {
         /// What it would measure; `None` where it is not known at all.
         measures: Option<&'static str>,
         /// What the column holds.
-        quantity: &'static str,
-        /// Units that would do.
-        known: String,
+        quantity: Quantity,
     },
     /// A row longer or shorter than the header.
     #[error("{}, line {line}: {found} columns where the table has {expected}: `{text}`", .file.display())]
@@ -241,7 +240,7 @@ pub enum ReadError {
         /// The text.
         value: String,
         /// What it should be.
-        quantity: &'static str,
+        quantity: Quantity,
     },
     /// `--columns` or `--units` cannot be understood.
     #[error("{option} `{text}`: {reason}")]

@@ -41,6 +41,7 @@ pub fn shown(row: &StringRecord, separator: u8) -> String {
         .iter()
         .collect::<Vec<_>>()
         .join(&char::from(separator).to_string());
+    let text = text.replace(['\n', '\r'], "↵"); // within quotes
     if text.chars().count() > 60 {
         text.chars().take(60).chain(['…']).collect()
     } else {

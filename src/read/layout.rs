@@ -86,10 +86,7 @@ impl<'a> Layout<'a> {
             }
             match self.unit(*quantity, *index) {
                 Ok(unit) => {
-                    notes.extend(
-                        unit.remark
-                            .map(|remark| format!("{}: {remark}", self.name(*index))),
-                    );
+                    notes.extend(self.remark(*quantity, *index, unit));
                     let name = match self.head.names.is_empty() {
                         true => quantity.name().to_string(),
                         false => self.name(*index),
@@ -176,7 +173,7 @@ impl<'a> Layout<'a> {
                 second: self.spot(second),
                 first: first + 1,
                 first_name: self.name(first),
-                quantity: quantity.name(),
+                quantity,
             }),
         }
     }
@@ -192,10 +189,37 @@ impl<'a> Layout<'a> {
         index.ok_or_else(|| ReadError::NoSuchColumn {
             file: self.source.file.clone(),
             line: self.head.line,
-            quantity: quantity.name(),
+            quantity,
             choice: choice.to_string(),
             found: self.all_names(),
         })
+    }
+
+    /// Unit in the header cell, else in the row below it.
+    fn written_unit(&self, index: usize) -> Option<&str> {
+        let in_cell = self
+            .head
+            .names
+            .get(index)
+            .and_then(|cell| quantity::name_and_unit(cell).1);
+        let below = self.head.units.get(index).map(|cell| bare(cell));
+        in_cell.or(below).filter(|unit| !unit.is_empty())
+    }
+
+    /// What to say of a column's unit, if anything.
+    fn remark(&self, quantity: Quantity, index: usize, unit: &Unit) -> Option<String> {
+        if let Some(remark) = unit.remark {
+            return Some(format!("{}: {remark}", self.name(index)));
+        }
+        let other = self.written_unit(index).filter(|written| {
+            self.options.unit(quantity).is_some()
+                && unit::find(written, quantity.dimension()) != Some(unit)
+        })?;
+        let name = self.name(index);
+        Some(format!(
+            "{name}: read in {} as --units says, not in {other}",
+            unit.spelling
+        ))
     }
 
     /// Unit by `--units`, else by the header cell, else by the row below it.
@@ -212,7 +236,7 @@ impl<'a> Layout<'a> {
         let Some(written) = in_cell.or(below).filter(|unit| !unit.is_empty()) else {
             return Err(ReadError::MissingUnit {
                 spot: self.spot(index),
-                quantity: quantity.name(),
+                quantity,
                 example: quantity.example_unit(),
             });
         };
@@ -220,8 +244,7 @@ impl<'a> Layout<'a> {
             spot: self.spot(index),
             unit: written.to_string(),
             measures: unit::measures(written).map(unit::Dimension::name),
-            quantity: quantity.name(),
-            known: unit::known(quantity),
+            quantity,
         })
     }
 }

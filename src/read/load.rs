@@ -70,7 +70,7 @@ pub fn load_table(path: &Path, options: &Options) -> Result<LoadTable, ReadError
         return Err(layout.missing("force or displacement"));
     }
     let columns = layout.columns(&required, &[], &mut notes)?;
-    let mut numbers = numbers::read(&source, &head, &columns)?;
+    let mut numbers = numbers::read(&source, &head, &columns, &mut notes)?;
     let time = numbers.take(Quantity::Time).unwrap_or_else(|| {
         notes.push("no time column: the rows are taken one second apart".to_string());
         (0..numbers.lines.len()).map(|row| row as f64).collect()

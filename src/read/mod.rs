@@ -63,7 +63,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
     let measurement = if is_history {
         let required = [Quantity::Force, Quantity::Displacement];
         let columns = layout.columns(&required, &WITH_HISTORY, &mut notes)?;
-        let mut numbers = numbers::read(&source, &head, &columns)?;
+        let mut numbers = numbers::read(&source, &head, &columns, &mut notes)?;
         Measurement::History(Record {
             name: source.name(),
             time: numbers.take(Quantity::Time),
@@ -76,7 +76,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
     } else if is_table {
         let required = [Quantity::ForceAmplitude, Quantity::Dissipation];
         let columns = layout.columns(&required, &WITH_AMPLITUDES, &mut notes)?;
-        let mut numbers = numbers::read(&source, &head, &columns)?;
+        let mut numbers = numbers::read(&source, &head, &columns, &mut notes)?;
         Measurement::Amplitudes(AmplitudeTable {
             name: source.name(),
             force_amplitude: numbers.take(Quantity::ForceAmplitude).unwrap_or_default(),

@@ -22,13 +22,18 @@ impl Numbers {
     }
 }
 
-/// Reads every row.
+/// Reads every row; says in `notes` what was assumed.
 ///
 /// # Errors
 /// [`ReadError::Ragged`], [`ReadError::EmptyCell`], [`ReadError::NotANumber`],
 /// [`ReadError::NotFinite`], [`ReadError::Negative`], [`ReadError::TimeRunsBack`],
 /// [`ReadError::TimeRepeats`], [`ReadError::NoRows`], each at its line.
-pub fn read(source: &Source, head: &Head, columns: &[Column]) -> Result<Numbers, ReadError> {
+pub fn read(
+    source: &Source,
+    head: &Head,
+    columns: &[Column],
+    notes: &mut Vec<String>,
+) -> Result<Numbers, ReadError> {
     let text = &source.text[head.start..];
     let mut lines_seen = source.text[..head.start]
         .bytes()
@@ -88,6 +93,9 @@ pub fn read(source: &Source, head: &Head, columns: &[Column]) -> Result<Numbers,
             file: source.file.clone(),
             line: head.line,
         });
+    }
+    if mark == Mark::Comma {
+        notes.push("a comma within a number is read as decimal comma".to_string());
     }
     let columns = columns
         .iter()
@@ -165,7 +173,7 @@ impl Place<'_> {
             return Err(ReadError::Negative {
                 spot: self.spot(column),
                 value: cell.trim().to_string(),
-                quantity: column.quantity.name(),
+                quantity: column.quantity,
             });
         }
         match last.filter(|_| column.quantity == Quantity::Time) {

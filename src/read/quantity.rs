@@ -167,6 +167,12 @@ impl Quantity {
     }
 }
 
+impl std::fmt::Display for Quantity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// Lower case, underscores and runs of space as one space.
 pub fn plain(name: &str) -> String {
     let spaced = name.to_lowercase().replace(['_', '-', '\u{a0}'], " ");

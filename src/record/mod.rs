@@ -1,6 +1,8 @@
 //! A measurement as values. SI units.
 
 pub mod cycles;
+pub mod noise;
+pub mod split;
 
 /// Force and displacement of one test.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -4,6 +4,13 @@ import argparse
 import sys
 import time
 
+from . import demo as demo_records
+from . import noise_free
+from .blind import blind_test
+from .case import draw_case, write_case
+from .effects import CATALOGUE, EFFECTS
+from .scorecard import card
+
 
 def _span(text):
     low, _, high = text.partition(":")
@@ -15,20 +22,50 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="laboratory", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     draw = commands.add_parser("draw", help="records of one case, and the truth beside them")
-    draw.add_argument("--seed", type=int, default=None)
     draw.add_argument("--case", type=int, default=0)
     draw.add_argument("--effect", default=None)
-    draw.add_argument("--ratio", type=float, default=None)
-    draw.add_argument("-o", "--output", required=True)
+    draw.add_argument("--ratio", type=float, default=None, help="misfit after refit over noise")
+    blind = commands.add_parser("blind", help="draw cases, run the finder, judge it")
+    blind.add_argument("--cases", type=int, default=24)
+    blind.add_argument("--iwan", required=True, help="path of the command line")
+    blind.add_argument("--effects", default=None, help="names, separated by commas")
+    blind.add_argument("--ratio", type=_span, default=(1.0, 5.0), help="R or LOW:HIGH")
+    blind.add_argument("--jobs", type=int, default=2)
+    blind.add_argument("--pass", dest="more", default="", help="further words for diagnose")
+    known = commands.add_parser("noise_free", help="records of a known power-law joint")
+    known.add_argument("--softening", type=float, default=None, help="of the tangent, at the peak")
+    demo = commands.add_parser("demo", help="the example records")
+    board = commands.add_parser("scorecard", help="several blind tests on one card")
+    board.add_argument("tests", nargs="+", help="blind.json files")
+    commands.add_parser("effects", help="names of the effects")
+    for one in (draw, blind, known):
+        one.add_argument("--seed", type=int, default=None, help="from the clock unless given")
+    for one in (draw, blind, known, demo, board):
+        one.add_argument("-o", "--output", required=True)
     asked = parser.parse_args(arguments)
+    seed = getattr(asked, "seed", None)
+    seed = int(time.time()) if seed is None else seed
     if asked.command == "draw":
-        from .case import draw_case, write_case
-
-        seed = int(time.time()) if asked.seed is None else asked.seed
         records, truth, style = draw_case(seed, asked.case, asked.effect, asked.ratio)
         for path in write_case(asked.output, records, truth, style):
             print(path)
         print(f"seed {seed}", file=sys.stderr)
+    elif asked.command == "blind":
+        effects = asked.effects.split(",") if asked.effects else None
+        more = tuple(asked.more.split())
+        blind_test(
+            seed, asked.cases, asked.iwan, asked.output, effects, asked.ratio, asked.jobs, more
+        )
+    elif asked.command == "noise_free":
+        print(noise_free.make(seed, asked.output, asked.softening))
+        print(f"seed {seed}", file=sys.stderr)
+    elif asked.command == "demo":
+        print(demo_records.make(asked.output))
+    elif asked.command == "scorecard":
+        card(asked.tests, asked.output)
+    else:
+        for name in EFFECTS:
+            print(name, "catalogue" if name in CATALOGUE else "")
     return 0
 
 

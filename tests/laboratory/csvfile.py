@@ -14,7 +14,7 @@ def draw_style(rng):
     return {"force": force, "length": length, "swap": swap}
 
 
-def write_record(path, time, force, displacement, style, comments=()):
+def write_record(path, time, force, displacement, style, comments=(), digits=8):
     """One test as a file of the record contract; values in SI are converted to its units."""
     names = [f"force [{style['force']}]", f"displacement [{style['length']}]"]
     columns = [force / FORCE[style["force"]], displacement / LENGTH[style["length"]]]
@@ -25,4 +25,4 @@ def write_record(path, time, force, displacement, style, comments=()):
         for line in comments:
             out.write(f"# {line}\n")
         out.write(", ".join(["time [s]", *names]) + "\n")
-        np.savetxt(out, np.column_stack([time, *columns]), fmt="%.8g", delimiter=",")
+        np.savetxt(out, np.column_stack([time, *columns]), fmt=f"%.{digits}g", delimiter=",")

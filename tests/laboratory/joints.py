@@ -1,4 +1,4 @@
-"""Joints of the laboratory: Jenkins elements of equal stiffness at quantiles of a break-free law."""
+"""Joints of the laboratory: equal Jenkins elements at quantiles of a break-free law."""
 
 from dataclasses import dataclass, field
 

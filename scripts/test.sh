@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Every check of the repository. The last line counts the steps; the exit status is 1 where one failed.
+#
+#   scripts/test.sh             all steps
+#   scripts/test.sh WORD…       only the steps whose name contains one of the words
+set -euo pipefail
+
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+cd "$REPOSITORY"
+
+for component in fmt clippy; do
+    cargo "$component" --version >/dev/null 2>&1 ||
+        stop "cargo $component is missing: rustup component add rustfmt clippy"
+done
+
+# A folder whose name has a space, as users have them.
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+demo_result="$scratch/demo result"
+
+# What the steps below may rely on.
+export PYTHONPATH="$REPOSITORY/tests"
+export IWAN PYTHON
+export IWAN_FMU="$demo_result/joint.fmu"
+
+names=()
+commands=()
+step() {
+    names+=("$1")
+    commands+=("$(printf '%q ' "${@:2}")")
+}
+
+#    name                             command
+step "Rust formatting"                cargo fmt --check
+step "Rust lints"                     cargo clippy --locked --quiet --all-targets --features importer -- -D warnings
+step "Python formatting"              "$PYTHON" -m ruff format --check --quiet .
+step "Python lints"                   "$PYTHON" -m ruff check --quiet .
+step "Rust tests"                     cargo test --locked --quiet --features importer
+step "laboratory"                     "$PYTHON" -m laboratory selftest
+step "blind tests"                    "$PYTHON" -m laboratory blind --iwan "$IWAN"
+step "demo"                           scripts/demo.sh "$demo_result"
+step "demo leaves its files"          test -s "$demo_result/report.html" -a -s "$demo_result/diagnosis.json" -a -s "$demo_result/joint.json" -a -s "$demo_result/joint.fmu" -a -s "$demo_result/cosimulation.svg"
+step "FMU in fmpy"                    "$PYTHON" tests/fmu/run_fmpy.py
+
+wanted() {
+    [ $# -eq 1 ] && return 0
+    local word
+    for word in "${@:2}"; do
+        [[ "$1" == *"$word"* ]] && return 0
+    done
+    return 1
+}
+
+passed=0
+failed=()
+for i in "${!names[@]}"; do
+    name=${names[$i]}
+    wanted "$name" "$@" || continue
+    printf '\n== %d/%d %s\n' "$((i + 1))" "${#names[@]}" "$name"
+    begun=$SECONDS
+    if eval "${commands[$i]}"; then
+        passed=$((passed + 1))
+        outcome=passed
+    else
+        failed+=("$name")
+        outcome=FAILED
+    fi
+    printf '== %s: %s, %d s (%d s in all)\n' "$name" "$outcome" "$((SECONDS - begun))" "$((SECONDS - SETUP_STARTED))"
+done
+
+if [ $((passed + ${#failed[@]})) -eq 0 ]; then
+    stop "no step is named like that"
+fi
+echo
+for name in ${failed[@]+"${failed[@]}"}; do
+    echo "failed: $name"
+done
+echo "$passed passed, ${#failed[@]} failed"
+[ ${#failed[@]} -eq 0 ]

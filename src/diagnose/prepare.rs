@@ -1,0 +1,163 @@
+//! Before any fit: the form the records are judged in, their noise, what is held out.
+
+use crate::causes::Scale;
+use crate::identify::{Fit, Form, Problem, baseline};
+use crate::record::Record;
+use crate::record::noise::{Noise, from_differences, from_repeats};
+use crate::record::split::held_out;
+
+/// Records ready for the search.
+#[derive(Debug, Clone)]
+pub struct Bench {
+    /// All samples weighted, for the final joint.
+    pub whole: Problem,
+    /// Held-out samples without weight, for naming and for the gain.
+    pub train: Problem,
+    /// Held-out marks per record.
+    pub held: Vec<Vec<bool>>,
+    /// Noise of the judged channel per record.
+    pub noise: Vec<Noise>,
+    /// Sizes for the starts of the search.
+    pub scale: Scale,
+}
+
+/// Ratio of largest to smallest secant compliance beyond which the force-driven form is
+/// ill-conditioned (compliance grows without bound at full slip).
+const DEEP_SLIP: f64 = 8.0;
+
+/// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply
+/// that displacement has to be.
+pub fn form(records: &[Record]) -> Form {
+    if records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP) {
+        return Form::Stop;
+    }
+    let (mut force, mut displacement) = (0.0, 0.0);
+    for record in records {
+        let noise = |channel: &[f64]| {
+            let other = from_repeats(&record.force, channel)
+                .or_else(|| from_repeats(&record.displacement, channel))
+                .unwrap_or_else(|| from_differences(channel));
+            other.deviation / rms(channel)
+        };
+        force += noise(&record.force);
+        displacement += noise(&record.displacement);
+    }
+    if displacement >= force { Form::Play } else { Form::Stop }
+}
+
+/// Largest over smallest secant compliance, from the peaks of the loops: the smallest from the
+/// steepest tenth of local slopes, the largest from the overall range.
+pub fn compliance_ratio(record: &Record) -> f64 {
+    let range = |c: &[f64]| {
+        let high = c.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = c.iter().copied().fold(f64::INFINITY, f64::min);
+        high - low
+    };
+    let (force, displacement) = (range(&record.force), range(&record.displacement));
+    if !(force > 0.0 && displacement > 0.0) {
+        return 1.0;
+    }
+    // Slopes over pieces of a twentieth of the force range, so that noise matters little.
+    let mut slopes = Vec::new();
+    let mut from = 0;
+    for i in 1..record.len() {
+        let rise = record.force[i] - record.force[from];
+        if rise.abs() > 0.05 * force {
+            slopes.push((record.displacement[i] - record.displacement[from]) / rise);
+            from = i;
+        }
+    }
+    slopes.retain(|s| *s > 0.0);
+    if slopes.is_empty() {
+        return 1.0;
+    }
+    slopes.sort_by(f64::total_cmp);
+    let stiff = slopes[slopes.len() / 10];
+    displacement / force / stiff
+}
+
+/// Prepares records: form, first unweighted baseline, noise, weights, marks.
+pub fn prepare(records: &[Record]) -> Bench {
+    let form = form(records);
+    let mut whole = Problem::new(form, records);
+    let first = baseline(&whole);
+    let noise = noise(&whole, &first);
+    for (record, noise) in whole.records.iter_mut().zip(&noise) {
+        let a = noise.autoregression;
+        let innovation = noise.deviation * (1.0 - a * a).sqrt();
+        record.autoregression = a;
+        record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
+    }
+    let held: Vec<Vec<bool>> =
+        (0..whole.records.len()).map(|k| held_out(whole.channels(k).0)).collect();
+    let mut train = whole.clone();
+    for (record, held) in train.records.iter_mut().zip(&held) {
+        for (weight, held) in record.weight.iter_mut().zip(held) {
+            if *held {
+                *weight = 0.0;
+            }
+        }
+    }
+    let scale = scale(&whole, &first);
+    Bench { whole, train, held, noise, scale }
+}
+
+/// Noise of the judged channel: from repeated cycles where a record has them, else lent by the
+/// other records, else from the fastest variations of the baseline's residual.
+fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
+    let predictions = first.predict(problem);
+    let own: Vec<Option<Noise>> = (0..problem.records.len())
+        .map(|k| {
+            let (input, judged) = problem.channels(k);
+            from_repeats(input, judged)
+        })
+        .collect();
+    let lent = own.iter().flatten().max_by_key(|n| n.samples).copied();
+    own.iter()
+        .enumerate()
+        .map(|(k, own)| {
+            let (_, judged) = problem.channels(k);
+            let residual: Vec<f64> =
+                judged.iter().zip(&predictions[k].judged).map(|(y, p)| y - p).collect();
+            let floor = 1e-9 * rms(judged);
+            let mut noise = own.or(lent).unwrap_or_else(|| from_differences(&residual));
+            noise.deviation = noise.deviation.max(floor);
+            noise
+        })
+        .collect()
+}
+
+fn scale(problem: &Problem, first: &Fit) -> Scale {
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut duration, mut dissipation, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (k, record) in problem.records.iter().enumerate() {
+        let mut last = 0.0;
+        let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
+            last = march.dissipation();
+        });
+        let truth = prediction.truth;
+        force = force.max(largest(&truth.force));
+        displacement = displacement.max(largest(&truth.displacement));
+        dissipation = dissipation.max(last);
+        duration = duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
+        for i in 1..truth.displacement.len() {
+            let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
+            velocity = velocity.max(rate.abs());
+        }
+        step = record.steps.get(1).copied().unwrap_or(1.0).max(step);
+    }
+    let stiffness = match problem.operators.form {
+        Form::Play => 1.0 / first.coefficients[0].max(1e-3 * displacement / force),
+        Form::Stop => first.coefficients.iter().sum::<f64>(),
+    };
+    let period = std::f64::consts::TAU * displacement / velocity.max(f64::MIN_POSITIVE);
+    Scale { force, displacement, velocity, stiffness, dissipation, duration, period, step }
+}
+
+/// Root mean square about the mean.
+pub fn rms(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
+}

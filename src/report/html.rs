@@ -1,0 +1,48 @@
+//! `report.html`: one page that needs nothing else, with the plots inline.
+
+use minijinja::value::Value;
+use minijinja::{Environment, UndefinedBehavior, context};
+
+use super::{CausePage, ReportError, content, plots};
+use crate::diagnose::Findings;
+
+/// Named `.html`, so that every value is escaped.
+const TEMPLATE: &str = "report.html";
+
+/// The findings as a self-contained page; `pages` explain the causes and may be incomplete.
+///
+/// # Errors
+/// [`ReportError`], which is a defect of this program and never of the findings: numbers that are
+/// not finite are shown as `not determined` and left out of plots.
+pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, ReportError> {
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_trim_blocks(true);
+    environment.set_lstrip_blocks(true);
+    environment.add_template(TEMPLATE, include_str!("report.html"))?;
+    let mut records = Vec::new();
+    for curves in &findings.curves {
+        let figures = plots::of_record(findings, curves)?;
+        records.push(context! {
+            name => curves.name,
+            figures => figures.iter().map(content::figure).collect::<Vec<_>>(),
+        });
+    }
+    let page = environment.get_template(TEMPLATE)?.render(context! {
+        style => Value::from_safe_string(include_str!("report.css").to_owned()),
+        version => env!("CARGO_PKG_VERSION"),
+        names => findings.records.iter().map(|(name, ..)| name).collect::<Vec<_>>(),
+        banner => content::banner(findings),
+        causes => content::causes(findings, pages),
+        gain => content::gain(findings),
+        plots => records,
+        evidence => plots::evidence(findings)?.as_ref().map(content::figure),
+        candidates => content::candidates(findings),
+        parameters => content::estimates(&findings.joint_parameters),
+        not_identifiable => findings.not_identifiable,
+        next_experiment => findings.next_experiment,
+        records => content::records(findings),
+        notes => findings.notes,
+    })?;
+    Ok(page)
+}

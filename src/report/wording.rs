@@ -1,0 +1,211 @@
+//! Sentences that the screen and the page share.
+
+use super::quantity::{number, percent, quantity};
+use crate::diagnose::Findings;
+use crate::diagnose::findings::{NamedCause, Verdict};
+
+/// How the prediction of unseen data changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Change {
+    /// Nothing was extended, or nothing was measured.
+    None,
+    /// Better, and the interval excludes no gain.
+    Better,
+    /// Better at best value only: the interval includes no gain, or there is none.
+    PerhapsBetter,
+    /// Worse than the baseline.
+    Worse,
+}
+
+/// Judges the held-out ratio; where the ratio is no number, the two errors themselves.
+pub(super) fn change(findings: &Findings) -> Change {
+    let (given, interval) = findings.gain;
+    let ratio = if given.is_finite() {
+        given
+    } else {
+        findings.extended.held_out_rms / findings.baseline.held_out_rms
+    };
+    if ratio > 1.0 {
+        Change::Worse
+    } else if ratio.is_nan() || (ratio == 1.0 && findings.causes.is_empty()) {
+        Change::None
+    } else if interval.is_some_and(|(_, upper)| upper < 1.0) {
+        Change::Better
+    } else {
+        Change::PerhapsBetter
+    }
+}
+
+/// One word or two for the verdict.
+pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Clean => "Clean",
+        Verdict::Explained => "Explained",
+        Verdict::PartlyExplained => "Partly explained",
+        Verdict::Unexplained => "Unexplained",
+    }
+}
+
+/// The verdict in words, with the causes it rests on.
+pub(super) fn verdict_sentence(findings: &Findings) -> String {
+    let names: Vec<String> = findings.causes.iter().map(named).collect();
+    let causes = enumerate(&names);
+    match (findings.verdict, names.is_empty()) {
+        (Verdict::Clean, true) => {
+            "The baseline joint explains the record to the noise; nothing is wrong with it.".into()
+        }
+        (Verdict::Clean, false) => format!(
+            "The baseline joint explains the record to the noise; {causes} can be seen and does not matter."
+        ),
+        (Verdict::Explained, _) => format!("With {causes} only noise is left."),
+        (Verdict::PartlyExplained, _) => {
+            format!("With {causes} structure beyond the noise remains.")
+        }
+        (Verdict::Unexplained, true) => {
+            "Structure beyond the noise that no cause of the catalogue predicts out of sample."
+                .into()
+        }
+        (Verdict::Unexplained, false) => format!(
+            "Structure beyond the noise remains that {causes} does not predict out of sample."
+        ),
+    }
+}
+
+/// The warning that comes before everything else where the prediction got worse.
+pub(super) fn worse_sentence(findings: &Findings) -> Option<String> {
+    (change(findings) == Change::Worse).then(|| {
+        format!(
+            "With the extension the prediction of unseen data got worse: {}. Keep the baseline joint.",
+            error_step(findings)
+        )
+    })
+}
+
+/// `held-out error 0.82 µm → 0.31 µm, ratio 0.380 (95 %: 0.330 … 0.440)`.
+pub(super) fn error_step(findings: &Findings) -> String {
+    format!(
+        "held-out error {} → {}, ratio {}",
+        quantity(findings.baseline.held_out_rms, &findings.unit),
+        quantity(findings.extended.held_out_rms, &findings.unit),
+        ratio(findings)
+    )
+}
+
+/// The ratio after over before, with its interval.
+pub(super) fn ratio(findings: &Findings) -> String {
+    let (ratio, interval) = findings.gain;
+    match interval {
+        Some((lower, upper)) => format!(
+            "{} (95 %: {} … {})",
+            number(ratio, 3),
+            number(lower, 3),
+            number(upper, 3)
+        ),
+        None => format!("{} (no interval)", number(ratio, 3)),
+    }
+}
+
+/// What the change of the held-out error means.
+pub(super) fn gain_sentence(findings: &Findings) -> String {
+    let share = percent((1.0 - findings.gain.0).abs());
+    match change(findings) {
+        Change::None => "Nothing was added to the baseline joint.".to_owned(),
+        Change::Better => format!("The error on unseen data falls by {share}."),
+        Change::PerhapsBetter => {
+            format!("The error on unseen data falls by {share}; the data do not prove a gain.")
+        }
+        Change::Worse => format!("The error on unseen data rises by {share}."),
+    }
+}
+
+/// How far the baseline misses the judged channel, against the noise.
+pub(super) fn miss_sentence(findings: &Findings) -> String {
+    let error = findings.baseline.held_out_rms;
+    let noise = findings.noise.rms;
+    let times = if noise > 0.0 && (error / noise).is_finite() {
+        format!(
+            ", {} × the noise of {}",
+            number(error / noise, 2),
+            quantity(noise, &findings.noise.unit)
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "The baseline misses the measured {} by {} rms on unseen data{times}.",
+        findings.judged,
+        quantity(error, &findings.unit)
+    )
+}
+
+/// How far the energy per cycle is off before and after; empty where it was not computed.
+pub(super) fn energy_sentence(findings: &Findings) -> String {
+    match (
+        findings.baseline.dissipation_error,
+        findings.extended.dissipation_error,
+    ) {
+        (Some(before), Some(after)) => format!(
+            "Energy per cycle off by {} before, {} after.",
+            percent(before),
+            percent(after)
+        ),
+        (Some(before), None) => format!("Energy per cycle off by {}.", percent(before)),
+        _ => String::new(),
+    }
+}
+
+/// What the cause changes and how surely it is there.
+pub(super) fn weight_sentence(cause: &NamedCause) -> String {
+    format!(
+        "Changes {} of the energy per cycle; without it the misfit rises by {} noise variances.",
+        percent(cause.matters),
+        number(cause.evidence, 3)
+    )
+}
+
+/// The rest, as a share of what could be explained.
+pub(super) fn rest_sentence(findings: &Findings) -> String {
+    if findings.verdict == Verdict::Clean {
+        return "Nothing beyond the noise.".to_owned();
+    }
+    format!(
+        "{} of the explainable misfit is left.",
+        percent(findings.unexplained.share)
+    )
+}
+
+/// A cause with the names that the data cannot tell from it.
+pub(super) fn named(cause: &NamedCause) -> String {
+    let own = in_words(&cause.name);
+    if cause.ambiguous_with.is_empty() {
+        return own;
+    }
+    let rivals: Vec<String> = cause
+        .ambiguous_with
+        .iter()
+        .map(|name| in_words(name))
+        .collect();
+    format!("{own} (or {})", rivals.join(" or "))
+}
+
+/// `sensor_delay` as `sensor delay`.
+pub(super) fn in_words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// The first letter raised.
+pub(super) fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(rest).collect()
+    })
+}
+
+/// `a, b and c`.
+fn enumerate(names: &[String]) -> String {
+    match names {
+        [] => "the named causes".to_owned(),
+        [only] => only.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
