@@ -19,7 +19,7 @@ pub mod pack;
 pub mod read;
 #[cfg(feature = "tool")]
 pub mod record;
-pub mod saved;
 #[cfg(feature = "tool")]
 pub mod report;
+pub mod saved;
 pub mod variables;

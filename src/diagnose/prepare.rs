@@ -42,7 +42,11 @@ pub fn form(records: &[Record]) -> Form {
         force += noise(&record.force);
         displacement += noise(&record.displacement);
     }
-    if displacement >= force { Form::Play } else { Form::Stop }
+    if displacement >= force {
+        Form::Play
+    } else {
+        Form::Stop
+    }
 }
 
 /// Largest over smallest secant compliance, from the peaks of the loops: the smallest from the
@@ -88,8 +92,9 @@ pub fn prepare(records: &[Record]) -> Bench {
         record.autoregression = a;
         record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
     }
-    let held: Vec<Vec<bool>> =
-        (0..whole.records.len()).map(|k| held_out(whole.channels(k).0)).collect();
+    let held: Vec<Vec<bool>> = (0..whole.records.len())
+        .map(|k| held_out(whole.channels(k).0))
+        .collect();
     let mut train = whole.clone();
     for (record, held) in train.records.iter_mut().zip(&held) {
         for (weight, held) in record.weight.iter_mut().zip(held) {
@@ -99,7 +104,13 @@ pub fn prepare(records: &[Record]) -> Bench {
         }
     }
     let scale = scale(&whole, &first);
-    Bench { whole, train, held, noise, scale }
+    Bench {
+        whole,
+        train,
+        held,
+        noise,
+        scale,
+    }
 }
 
 /// Noise of the judged channel: from repeated cycles where a record has them, else lent by the
@@ -117,8 +128,11 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
         .enumerate()
         .map(|(k, own)| {
             let (_, judged) = problem.channels(k);
-            let residual: Vec<f64> =
-                judged.iter().zip(&predictions[k].judged).map(|(y, p)| y - p).collect();
+            let residual: Vec<f64> = judged
+                .iter()
+                .zip(&predictions[k].judged)
+                .map(|(y, p)| y - p)
+                .collect();
             let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(&residual));
             noise.deviation = noise.deviation.max(floor);
@@ -140,7 +154,8 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         force = force.max(largest(&truth.force));
         displacement = displacement.max(largest(&truth.displacement));
         dissipation = dissipation.max(last);
-        duration = duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
+        duration =
+            duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
         for i in 1..truth.displacement.len() {
             let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
             velocity = velocity.max(rate.abs());
@@ -152,7 +167,16 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         Form::Stop => first.coefficients.iter().sum::<f64>(),
     };
     let period = std::f64::consts::TAU * displacement / velocity.max(f64::MIN_POSITIVE);
-    Scale { force, displacement, velocity, stiffness, dissipation, duration, period, step }
+    Scale {
+        force,
+        displacement,
+        velocity,
+        stiffness,
+        dissipation,
+        duration,
+        period,
+        step,
+    }
 }
 
 /// Root mean square about the mean.

@@ -67,12 +67,7 @@ fn penalty(problem: &Problem, cause: &dyn Cause) -> f64 {
 }
 
 /// Tries every cause beside the current set.
-pub fn trials(
-    problem: &Problem,
-    scale: &Scale,
-    timed: bool,
-    current: &Fit,
-) -> Vec<Trial> {
+pub fn trials(problem: &Problem, scale: &Scale, timed: bool, current: &Fit) -> Vec<Trial> {
     let usable: Vec<&'static dyn Cause> = CATALOGUE
         .iter()
         .copied()
@@ -85,15 +80,20 @@ pub fn trials(
             let starts: Vec<Acting> = cause
                 .starts(scale)
                 .into_iter()
-                .map(|values| Acting { effect: cause.effect(), values })
+                .map(|values| Acting {
+                    effect: cause.effect(),
+                    values,
+                })
                 .collect();
             let mut found = scores(problem, current, &starts);
             found.sort_by(|a, b| b.fall.total_cmp(&a.fall));
             found
         })
         .collect();
-    let highest =
-        scored.iter().filter_map(|s| s.first()).fold(0.0_f64, |a, s| a.max(s.fall));
+    let highest = scored
+        .iter()
+        .filter_map(|s| s.first())
+        .fold(0.0_f64, |a, s| a.max(s.fall));
     let worth = (0.03 * highest).max(0.25 * ALARM);
     let mut trials: Vec<Trial> = usable
         .par_iter()
@@ -112,7 +112,11 @@ pub fn trials(
             let fit = best.unwrap_or_else(|| current.clone());
             let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
             let evidence = fall - penalty(problem, cause);
-            Trial { cause, fit, evidence }
+            Trial {
+                cause,
+                fit,
+                evidence,
+            }
         })
         .collect();
     trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
@@ -126,7 +130,9 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     let mut first: Option<Vec<Trial>> = None;
     for round in 0..MOST {
         let trials = trials(problem, &bench.scale, timed, &current);
-        let Some(best) = trials.first().cloned() else { break };
+        let Some(best) = trials.first().cloned() else {
+            break;
+        };
         if round == 0 {
             first = Some(trials);
         }
@@ -139,7 +145,13 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     }
     let trials = first.unwrap_or_default();
     let (rivals, evidence) = rivals(bench, timed, &current);
-    Found { baseline, best: current, trials, rivals, evidence }
+    Found {
+        baseline,
+        best: current,
+        trials,
+        rivals,
+        evidence,
+    }
 }
 
 /// Drops causes that the others have made needless.
@@ -153,9 +165,7 @@ fn prune(problem: &Problem, mut fit: Fit) -> Fit {
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
-            Some(less)
-                if (less.misfit - fit.misfit) / dispersion(problem, &fit) < ALARM =>
-            {
+            Some(less) if (less.misfit - fit.misfit) / dispersion(problem, &fit) < ALARM => {
                 fit = less;
             }
             _ => break,

@@ -28,19 +28,27 @@ pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
         if !alike(&triple[0], &triple[1]) || !alike(&triple[1], &triple[2]) {
             continue;
         }
-        let back = -shift(drive, &triple[1], triple[0].start as f64 - triple[1].start as f64);
-        let forth = shift(drive, &triple[1], triple[2].start as f64 - triple[1].start as f64);
+        let back = -shift(
+            drive,
+            &triple[1],
+            triple[0].start as f64 - triple[1].start as f64,
+        );
+        let forth = shift(
+            drive,
+            &triple[1],
+            triple[2].start as f64 - triple[1].start as f64,
+        );
         let amplitude = triple[1].amplitude;
         let mut part = Vec::new();
         let mut same = 0.0_f64;
         for i in triple[1].start..triple[1].end {
-            let (Some((before, one)), Some((after, other))) =
-                (interpolate(response, i as f64 - back), interpolate(response, i as f64 + forth))
-            else {
+            let (Some((before, one)), Some((after, other))) = (
+                interpolate(response, i as f64 - back),
+                interpolate(response, i as f64 + forth),
+            ) else {
                 continue;
             };
-            let load = interpolate(drive, i as f64 - back).map_or(0.0, |v| v.0)
-                - 2.0 * drive[i]
+            let load = interpolate(drive, i as f64 - back).map_or(0.0, |v| v.0) - 2.0 * drive[i]
                 + interpolate(drive, i as f64 + forth).map_or(0.0, |v| v.0);
             same = same.max(load.abs());
             part.push((before - 2.0 * response[i] + after) / (4.0 + one + other).sqrt());
@@ -54,13 +62,23 @@ pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
         return None;
     }
     let (deviation, autoregression) = moments(&differences);
-    Some(Noise { deviation, autoregression, samples, repeated: true })
+    Some(Noise {
+        deviation,
+        autoregression,
+        samples,
+        repeated: true,
+    })
 }
 
 /// Noise of a residual that nothing repeats in: its own variance and correlation of neighbours.
 pub fn from_residual(residual: &[f64]) -> Noise {
     let (deviation, autoregression) = moments(&[residual.to_vec()]);
-    Noise { deviation, autoregression, samples: residual.len(), repeated: false }
+    Noise {
+        deviation,
+        autoregression,
+        samples: residual.len(),
+        repeated: false,
+    }
 }
 
 /// Noise from the fastest variations only, taken as white: third differences,
@@ -96,7 +114,14 @@ fn moments(parts: &[Vec<f64>]) -> (f64, f64) {
     let correlation = (product / pairs) / (square / count);
     // A correlation within two standard errors of zero is taken as none.
     let significant = correlation > 2.0 / count.sqrt();
-    ((square / count).sqrt(), if significant { correlation.min(0.99) } else { 0.0 })
+    (
+        (square / count).sqrt(),
+        if significant {
+            correlation.min(0.99)
+        } else {
+            0.0
+        },
+    )
 }
 
 /// Shift in samples, near `guess`, at which the drive repeats the given cycle best
@@ -117,14 +142,22 @@ fn shift(drive: &[f64], cycle: &Cycle, guess: f64) -> f64 {
                 norm += slope * slope;
             }
         }
-        let step = if norm > 0.0 { (product / norm).clamp(-2.0, 2.0) } else { 0.0 };
+        let step = if norm > 0.0 {
+            (product / norm).clamp(-2.0, 2.0)
+        } else {
+            0.0
+        };
         shift += step;
         if step.abs() < 1e-6 {
             break;
         }
     }
     // A drive sampled in step with its period repeats to the sample: no interpolation then.
-    if (shift - shift.round()).abs() < 1e-3 { shift.round() } else { shift }
+    if (shift - shift.round()).abs() < 1e-3 {
+        shift.round()
+    } else {
+        shift
+    }
 }
 
 /// Cubic Lagrange interpolation at a fractional index, and the sum of squares of its weights.
@@ -142,6 +175,10 @@ fn interpolate(channel: &[f64], at: f64) -> Option<(f64, f64)> {
         -(s + 1.0) * s * (s - 2.0) / 2.0,
         (s + 1.0) * s * (s - 1.0) / 6.0,
     ];
-    let value = weights.iter().zip(&channel[b - 1..b + 3]).map(|(w, y)| w * y).sum();
+    let value = weights
+        .iter()
+        .zip(&channel[b - 1..b + 3])
+        .map(|(w, y)| w * y)
+        .sum();
     Some((value, weights.iter().map(|w| w * w).sum()))
 }
