@@ -1,10 +1,19 @@
 //! `iwan identify`: records → joint.json.
 
+mod found;
+mod json;
+mod text;
+
+use super::BadInput;
 use super::input::Records;
 use super::output;
+use crate::read::Loaded;
+use crate::saved::{Provenance, RecordUsed, SavedJoint};
+use found::Found;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Identify the joint from measured records.
+/// Identify the joint from measured records or an amplitude table.
 #[derive(Debug, clap::Args)]
 pub struct Identify {
     #[command(flatten)]
@@ -12,11 +21,71 @@ pub struct Identify {
     /// File to write
     #[arg(short, long, value_name = "JOINT.json", default_value = "joint.json")]
     output: PathBuf,
+    /// Report as JSON instead of text
+    #[arg(long)]
+    json: bool,
 }
 
-/// Runs the subcommand.
+/// Identifies, prints the fit report and writes joint.json.
+///
+/// Of a table taken at phase resonance the report is printed and no joint written: the table does
+/// not hold the joint's own force.
+///
+/// # Errors
+/// Of reading; [`BadInput`] where the records hold no joint.
 pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     output::admit(&arguments.output, &arguments.records.paths())?;
-    let _records = arguments.records.load()?;
-    anyhow::bail!("`iwan identify` is not built yet")
+    let loaded = arguments.records.load()?;
+    eprintln!("identifying from {} record(s) …", loaded.len());
+    let found = Found::from(&loaded).map_err(|e| BadInput(e.to_string()))?;
+    let report = if arguments.json {
+        json::report(&found)
+    } else {
+        text::report(&found)
+    };
+    if arguments.output == PathBuf::from("-") && !arguments.json {
+        // The joint has the standard output for itself.
+        eprint!("{report}");
+    } else {
+        output::print(&report)?;
+    }
+    let joint = found.joint.as_ref().map_err(|why| BadInput(why.clone()))?;
+    let saved = SavedJoint {
+        joint: joint.clone(),
+        provenance: provenance(&loaded),
+        intervals: intervals(&found),
+    };
+    output::write(&arguments.output, |out| {
+        out.write_all(crate::saved::write(&saved).as_bytes())?;
+        Ok(())
+    })?;
+    eprintln!("wrote {}", arguments.output.display());
+    Ok(())
+}
+
+fn provenance(loaded: &[Loaded]) -> Provenance {
+    Provenance {
+        records: loaded
+            .iter()
+            .map(|one| RecordUsed {
+                name: found::name(one),
+                samples: found::samples(one),
+                sha256: one.sha256.clone(),
+            })
+            .collect(),
+        tool: Some(format!("iwan identify {}", env!("CARGO_PKG_VERSION"))),
+        ..Provenance::default()
+    }
+}
+
+/// Intervals by glossary name; infinite where the data do not bound a value.
+fn intervals(found: &Found) -> BTreeMap<String, (f64, f64)> {
+    found
+        .estimates()
+        .iter()
+        .map(|e| {
+            let open = (f64::NEG_INFINITY, f64::INFINITY);
+            (e.name.to_string(), e.interval.unwrap_or(open))
+        })
+        .collect()
 }

@@ -37,14 +37,20 @@ impl Minimum {
     }
 }
 
-const MOST_ITERATIONS: usize = 100;
+/// A column smaller than this (rms, residuals being of order one) is rounding, not sensitivity:
+/// scaled by its norm it would send its number anywhere.
+const BLIND: f64 = 1e-9;
 
 /// Least sum of squares of `residuals` within the bounds; `None` where the start has no residuals.
 ///
 /// A value on its bound whose gradient points outwards is held there for the step (projected
 /// Marquardt); a step to a place without residuals is refused and shortened. Columns are scaled
-/// by their norm, so units do not matter.
-pub fn minimise(free: &[Free], residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>) -> Option<Minimum> {
+/// by their norm, so units of the numbers do not matter; residuals should be of order one at most.
+pub fn minimise(
+    free: &[Free],
+    most_iterations: usize,
+    residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
+) -> Option<Minimum> {
     let mut at: Vec<f64> = free
         .iter()
         .map(|f| f.start.clamp(f.lower, f.upper))
@@ -54,7 +60,8 @@ pub fn minimise(free: &[Free], residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>) -
     let mut damping = 1e-3;
     let mut converged = false;
     let mut iterations = 0;
-    while iterations < MOST_ITERATIONS && !converged {
+    let blind = residual.len() as f64 * BLIND.powi(2);
+    while iterations < most_iterations && !converged {
         iterations += 1;
         let r = DVector::from_column_slice(&residual);
         let misfit = r.norm_squared();
@@ -64,7 +71,7 @@ pub fn minimise(free: &[Free], residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>) -
             .map(|j| {
                 (at[j] <= free[j].lower && gradient[j] > 0.0)
                     || (at[j] >= free[j].upper && gradient[j] < 0.0)
-                    || normal[(j, j)] == 0.0
+                    || normal[(j, j)] <= blind
             })
             .collect();
         let Some((next, next_residual)) = improved(
@@ -85,7 +92,7 @@ pub fn minimise(free: &[Free], residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>) -
             .map(|j| (next[j] - at[j]).abs() / free[j].step)
             .fold(0.0, f64::max);
         // A step far below that of the difference quotients, or no gain to speak of.
-        converged = moved < 1e-3 || gained <= 1e-13 * misfit;
+        converged = moved < 1e-3 || gained <= 1e-12 * misfit;
         (at, residual) = (next, next_residual);
         jacobian = differences(free, &at, &residual, residuals);
     }
@@ -110,37 +117,73 @@ fn improved(
     damping: &mut f64,
     residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let moving: Vec<usize> = (0..free.len()).filter(|&j| !held[j]).collect();
-    if moving.is_empty() {
+    if held.iter().all(|&h| h) {
         return None;
     }
     while *damping < 1e16 {
-        let n = moving.len();
-        let scale: Vec<f64> = moving.iter().map(|&j| normal[(j, j)].sqrt()).collect();
-        let mut damped = DMatrix::from_fn(n, n, |a, b| {
-            normal[(moving[a], moving[b])] / (scale[a] * scale[b])
-        });
-        for a in 0..n {
-            damped[(a, a)] += *damping;
-        }
-        let right = DVector::from_fn(n, |a, _| -gradient[moving[a]] / scale[a]);
-        if let Some(step) = damped.cholesky().map(|c| c.solve(&right)) {
-            let mut next = at.to_vec();
-            for (a, &j) in moving.iter().enumerate() {
-                next[j] = (at[j] + step[a] / scale[a]).clamp(free[j].lower, free[j].upper);
-            }
-            if let Some(residual) = residuals(&next) {
-                let reached: f64 = residual.iter().map(|r| r * r).sum();
-                if reached < misfit {
-                    *damping = (*damping * 0.1).max(1e-14);
-                    return Some((next, residual));
-                }
+        if let Some(next) = bounded_step(free, at, normal, gradient, held, *damping)
+            && let Some(residual) = residuals(&next)
+        {
+            let reached: f64 = residual.iter().map(|r| r * r).sum();
+            if reached < misfit {
+                *damping = (*damping * 0.1).max(1e-14);
+                return Some((next, residual));
             }
         }
         *damping *= 10.0;
     }
     *damping = 1e-3;
     None
+}
+
+/// The damped step within the bounds: a value that would leave goes to its bound, and the others
+/// are solved for again with it there. Cutting the step off instead would leave the valley.
+fn bounded_step(
+    free: &[Free],
+    at: &[f64],
+    normal: &DMatrix<f64>,
+    gradient: &DVector<f64>,
+    held: &[bool],
+    damping: f64,
+) -> Option<Vec<f64>> {
+    let mut step = vec![0.0; at.len()];
+    let mut fixed = held.to_vec();
+    loop {
+        let moving: Vec<usize> = (0..at.len()).filter(|&j| !fixed[j]).collect();
+        let n = moving.len();
+        if n == 0 {
+            break;
+        }
+        let scale: Vec<f64> = moving.iter().map(|&j| normal[(j, j)].sqrt()).collect();
+        let mut damped = DMatrix::from_fn(n, n, |a, b| {
+            normal[(moving[a], moving[b])] / (scale[a] * scale[b])
+        });
+        for a in 0..n {
+            damped[(a, a)] += damping;
+        }
+        let right = DVector::from_fn(n, |a, _| {
+            let of_fixed: f64 = (0..at.len())
+                .filter(|&j| fixed[j])
+                .map(|j| normal[(moving[a], j)] * step[j])
+                .sum();
+            -(gradient[moving[a]] + of_fixed) / scale[a]
+        });
+        let solved = damped.cholesky()?.solve(&right);
+        let mut left = false;
+        for (a, &j) in moving.iter().enumerate() {
+            let wanted = at[j] + solved[a] / scale[a];
+            let bound = wanted.clamp(free[j].lower, free[j].upper);
+            step[j] = bound - at[j];
+            if bound != wanted {
+                fixed[j] = true;
+                left = true;
+            }
+        }
+        if !left {
+            break;
+        }
+    }
+    Some(at.iter().zip(&step).map(|(a, s)| a + s).collect())
 }
 
 /// d residual / d value at a place; `None` where it has no residuals.
@@ -210,7 +253,7 @@ mod tests {
     fn a_bound_holds_one_value_while_the_other_moves_on() {
         let plane = |x: &[f64]| Some(vec![x[0] - 3.0 + 0.5 * x[1], x[1] - 1.0]);
         let found =
-            minimise(&[free(0.0, -1.0, 1.0), free(0.0, -9.0, 9.0)], &plane).expect("a start");
+            minimise(&[free(0.0, -1.0, 1.0), free(0.0, -9.0, 9.0)], 100, &plane).expect("a start");
         // With x_0 = 1: minimise (0.5 y − 2)² + (y − 1)², y = 1.6.
         assert_eq!(found.at[0], 1.0);
         assert!((found.at[1] - 1.6).abs() < 1e-8);

@@ -13,7 +13,7 @@ pub use levenberg::{Free, Minimum, minimise};
 pub use shape::Shape;
 
 use super::interval::Estimated;
-use super::seed::Seed;
+use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
 use shape::{LAST_SHARE, NETWORK_SHARE};
@@ -36,6 +36,12 @@ pub enum FamilyError {
         "no joint with positive stiffness and slip follows these records: check the sign and the order of the force and displacement columns"
     )]
     NoJoint,
+    /// Levels that do not hold what a joint needs.
+    #[error("no joint follows from these levels alone: {missing}")]
+    NotMeasured {
+        /// What is missing, and what would give it.
+        missing: &'static str,
+    },
     /// The best joint leaves the glossary.
     #[error("the best fit is no joint: {0}")]
     OutOfGlossary(#[from] JointError),
@@ -142,24 +148,68 @@ fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, Family
     concluded(target, best, known, split_told, slip_told)
 }
 
+/// The joint of load levels alone (an amplitude table): the power law (ϑ, χ), all compliance in the
+/// network, extended as far as its stiffness lasts.
+///
+/// # Errors
+/// [`FamilyError::NotMeasured`] without the growth of the loss or without the joint's stiffness.
+pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
+    let missing = |missing| Err(FamilyError::NotMeasured { missing });
+    let Some(law) = &seed.dissipation else {
+        return missing("give at least two load levels with a positive dissipation");
+    };
+    if law.over == Over::Displacement {
+        return missing(
+            "at phase resonance the table's force is the exciter's; give the joint's own force \
+             amplitude (modal mass times acceleration), or a time history",
+        );
+    }
+    let Some(stiffness) = &seed.stiffness else {
+        return missing("give the column `displacement amplitude [m]` for the stiffness");
+    };
+    let reference = seed.largest_force;
+    let shape = Shape {
+        series_stiffness: stiffness.series.value,
+        log_loss: law.coefficient.value.ln() + (law.exponent.value + 3.0) * reference.ln(),
+        reference_force: reference,
+        exponent: law.exponent.value,
+        network_share: 1.0,
+        last_share: 0.0,
+    };
+    Ok(joint(&shape, false)?)
+}
+
 /// A shape with the descent that led there.
 struct Best {
     shape: Shape,
     minimum: Minimum,
 }
 
+/// Iterations that tell the starts apart, and those of the best one.
+const FIRST: usize = 10;
+const LAST: usize = 100;
+
 /// The deepest of the descents from the starts; held shares keep their value.
 fn best_of(target: &Target, starts: &[Shape], held: [Option<f64>; 2]) -> Option<Best> {
-    starts
+    let first = starts
         .iter()
-        .filter_map(|start| descend(target, start, held))
-        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))
+        .filter_map(|start| descend(target, start, held, FIRST))
+        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))?;
+    if first.minimum.converged {
+        return Some(first);
+    }
+    descend(target, &first.shape, held, LAST)
 }
 
-fn descend(target: &Target, start: &Shape, held: [Option<f64>; 2]) -> Option<Best> {
+fn descend(
+    target: &Target,
+    start: &Shape,
+    held: [Option<f64>; 2],
+    most_iterations: usize,
+) -> Option<Best> {
     let free = free_numbers(start, held);
     let residuals = |numbers: &[f64]| target.residuals(&start.with(numbers));
-    let minimum = minimise(&free, &residuals)?;
+    let minimum = minimise(&free, most_iterations, &residuals)?;
     Some(Best {
         shape: start.with(&minimum.at),
         minimum,
