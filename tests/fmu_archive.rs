@@ -136,7 +136,12 @@ fn several_platforms_in_one_archive() {
         "--binary",
         &linux,
     ];
-    refused(&folder, None, &twice, "platform `linux64` has two libraries");
+    refused(
+        &folder,
+        None,
+        &twice,
+        "platform `linux64` has two libraries",
+    );
 }
 
 #[test]
