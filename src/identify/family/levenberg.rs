@@ -243,8 +243,12 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
         let rosenbrock = |x: &[f64]| Some(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]);
-        let found = minimise(&[free(-1.2, -5.0, 5.0), free(1.0, -5.0, 5.0)], &rosenbrock)
-            .expect("it has a start");
+        let found = minimise(
+            &[free(-1.2, -5.0, 5.0), free(1.0, -5.0, 5.0)],
+            100,
+            &rosenbrock,
+        )
+        .expect("it has a start");
         assert!(found.converged);
         assert!((found.at[0] - 1.0).abs() < 1e-8 && (found.at[1] - 1.0).abs() < 1e-8);
     }

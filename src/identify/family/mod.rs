@@ -12,7 +12,7 @@ pub use branches::Branches;
 pub use levenberg::{Free, Minimum, minimise};
 pub use shape::Shape;
 
-use super::interval::Estimated;
+use super::interval::{Estimated, NORMAL_95};
 use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
@@ -77,11 +77,15 @@ pub struct FamilyFit {
 /// Tangent over initial stiffness below which force-driven response is ill-conditioned and the
 /// joint is fitted under displacement.
 const DEEP: f64 = 0.3;
+/// Fullness of the loops from which on the same holds: an elastoplastic joint has it at 1.2 times
+/// its yield displacement.
+const FULL: f64 = 0.17;
 const LEAST_SAMPLES: usize = 20;
 
 /// Which channel to prescribe: force, unless the deepest curve goes near full slip.
 pub fn drive_for(seed: &Seed) -> Drive {
     match &seed.monotonic {
+        _ if seed.fullness > FULL => Drive::Displacement,
         Some(curve) if curve.softening() < DEEP => Drive::Displacement,
         _ => Drive::Force,
     }
@@ -347,12 +351,10 @@ fn not_identifiable(
     if !split_told {
         said.push(format!(
             "K_1 and K_T: only K_1 K_T/(K_1+K_T) = {:.5e} N/m is told, K_T is at least that. The \
-             share of the network in the compliance changes the {channel} by {:.1e} {unit} rms \
-             over its whole range against {:.1e} {unit} of misfit; the joint written has K_1 \
-             infinite.",
+             share of the network in the compliance is known to ± {:.2} of 1, against ± 0.57 \
+             without any data; the joint written has K_1 infinite.",
             fit.shape.series_stiffness,
-            effect(NETWORK_SHARE),
-            fit.rms
+            NORMAL_95 * known.deviation(NETWORK_SHARE)
         ));
     }
     let loose = known.deviation(2) > 0.25;

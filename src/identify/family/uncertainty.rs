@@ -171,5 +171,6 @@ impl Uncertainty {
     }
 }
 
-/// Range of χ in a fit: below, the loss no longer grows faster than that of a linear element.
-pub const EXPONENT_RANGE: (f64, f64) = (-0.98, 3.0);
+/// Range of χ in a fit. Towards −1 the population is all at zero force and its stiffness without
+/// bound: K_0 and χ then compensate each other.
+pub const EXPONENT_RANGE: (f64, f64) = (-0.95, 3.0);
