@@ -2,6 +2,7 @@
 //! records themselves with the exact response.
 
 mod branches;
+mod descent;
 mod levenberg;
 mod shape;
 mod start;
@@ -10,15 +11,16 @@ mod uncertainty;
 
 pub use branches::Branches;
 pub use levenberg::{Free, Minimum, minimise};
-pub use shape::Shape;
+pub use shape::{Shape, Size};
 
 use super::interval::{Estimated, NORMAL_95};
 use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
+use descent::Best;
 use shape::{LAST_SHARE, NETWORK_SHARE};
 use target::Target;
-use uncertainty::{EXPONENT_RANGE, Uncertainty};
+use uncertainty::Uncertainty;
 
 /// Why no family could be fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -93,9 +95,9 @@ pub fn drive_for(seed: &Seed) -> Drive {
 
 /// Fits the family to all records at once, one offset per record, with the exact response.
 ///
-/// The four parameters and K_1 are fitted by bounded Levenberg–Marquardt from several starts. Where
-/// the data do not tell the split of the compliance, K_1 is taken as infinite; where they do not
-/// reach full slip, β as zero; both are then said.
+/// The four parameters and K_1 are fitted by bounded Levenberg–Marquardt from several starts. What
+/// the data leave open (the split of the compliance below macro-slip, F_S and β below full slip) is
+/// set to the middle of its range or to zero, counted in the intervals of the others, and said.
 ///
 /// # Errors
 /// [`FamilyError`]. Checked in tests/identification.rs on noise-free records of an independent
@@ -131,24 +133,22 @@ fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, Family
         });
     }
     let starts = start::starts(target, initial);
-    let free_all = [None, None];
-    let best = best_of(target, &different(&starts), free_all).ok_or(FamilyError::NoJoint)?;
-    let shape = best.shape;
-    let known = uncertainty(target, &best).ok_or(FamilyError::NoJoint)?;
-    let split_told = known.knows_share(NETWORK_SHARE);
-    let slip_told = known.knows_share(LAST_SHARE);
-    if split_told && slip_told {
+    let best = descent::global(target, &starts).ok_or(FamilyError::NoJoint)?;
+    let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
+    let told = |known: &Uncertainty| {
+        (
+            known.knows_share(NETWORK_SHARE),
+            known.knows_share(LAST_SHARE),
+        )
+    };
+    if told(&known) == (true, true) {
         return concluded(target, best, known, true, true);
     }
-    // What is not told is set to the simplest joint, and the rest fitted once more.
-    let held = [(!split_told).then_some(1.0), (!slip_told).then_some(0.0)];
-    let simplest = Shape {
-        network_share: held[0].unwrap_or(shape.network_share),
-        last_share: held[1].unwrap_or(shape.last_share),
-        ..shape
-    };
-    let best = best_of(target, &[simplest], held).unwrap_or(best);
-    let known = uncertainty(target, &best).unwrap_or(known);
+    // What the data leave open is drawn softly to the middle of its range, so that it neither
+    // wanders nor drags the others along; β, where nothing at all depends on it, is zero.
+    let best = descent::settled(target, &best, &known);
+    let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
+    let (split_told, slip_told) = told(&known);
     concluded(target, best, known, split_told, slip_told)
 }
 
@@ -174,110 +174,15 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
     let reference = seed.largest_force;
     let shape = Shape {
         series_stiffness: stiffness.series.value,
-        log_loss: law.coefficient.value.ln() + (law.exponent.value + 3.0) * reference.ln(),
-        reference_force: reference,
+        size: Size::Loss {
+            log: law.coefficient.value.ln() + (law.exponent.value + 3.0) * reference.ln(),
+            reference_force: reference,
+        },
         exponent: law.exponent.value,
         network_share: 1.0,
         last_share: 0.0,
     };
     Ok(joint(&shape, false)?)
-}
-
-/// A shape with the descent that led there.
-struct Best {
-    shape: Shape,
-    minimum: Minimum,
-}
-
-/// Iterations that tell the starts apart, and those of the best one.
-const FIRST: usize = 10;
-const LAST: usize = 100;
-
-/// The deepest of the descents from the starts; held shares keep their value.
-fn best_of(target: &Target, starts: &[Shape], held: [Option<f64>; 2]) -> Option<Best> {
-    let first = starts
-        .iter()
-        .filter_map(|start| descend(target, start, held, FIRST))
-        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))?;
-    if first.minimum.converged {
-        return Some(first);
-    }
-    descend(target, &first.shape, held, LAST)
-}
-
-fn descend(
-    target: &Target,
-    start: &Shape,
-    held: [Option<f64>; 2],
-    most_iterations: usize,
-) -> Option<Best> {
-    let free = free_numbers(start, held);
-    let residuals = |numbers: &[f64]| target.residuals(&start.with(numbers));
-    let minimum = minimise(&free, most_iterations, &residuals)?;
-    Some(Best {
-        shape: start.with(&minimum.at),
-        minimum,
-    })
-}
-
-fn free_numbers(start: &Shape, held: [Option<f64>; 2]) -> Vec<Free> {
-    let at = start.numbers();
-    let free = |start: f64, lower: f64, upper: f64, step: f64| Free {
-        start,
-        lower,
-        upper,
-        step,
-    };
-    let share = |start: f64, lower: f64, upper: f64, held: Option<f64>| match held {
-        Some(value) => free(value, value, value, 1e-4),
-        None => free(start, lower, upper, 1e-4),
-    };
-    vec![
-        free(at[0], at[0] - 12.0, at[0] + 12.0, 1e-5),
-        free(at[1], at[1] - 40.0, at[1] + 40.0, 1e-4),
-        free(at[2], EXPONENT_RANGE.0, EXPONENT_RANGE.1, 1e-4),
-        share(at[NETWORK_SHARE], 1e-3, 1.0, held[0]),
-        share(at[LAST_SHARE], 0.0, 0.999, held[1]),
-    ]
-}
-
-/// A few starts that are not neighbours of a better one.
-fn different(starts: &[Shape]) -> Vec<Shape> {
-    let mut kept: Vec<Shape> = Vec::new();
-    for start in starts {
-        let near = |k: &Shape| {
-            (k.exponent - start.exponent).abs() < 0.2
-                && (k.last_share - start.last_share).abs() < 0.2
-                && (k.series_stiffness / start.series_stiffness).ln().abs() < 0.7
-        };
-        if !kept.iter().any(near) {
-            kept.push(*start);
-        }
-        if kept.len() == 4 {
-            break;
-        }
-    }
-    kept
-}
-
-/// Uncertainty over all five numbers at a minimum, held ones included.
-fn uncertainty(target: &Target, best: &Best) -> Option<Uncertainty> {
-    let residuals = |numbers: &[f64]| target.residuals(&best.shape.with(numbers));
-    let free = free_numbers(&best.shape, [None, None]);
-    let jacobian = levenberg::jacobian(&free, &best.shape.numbers(), &residuals)?;
-    let degrees = best
-        .minimum
-        .residual
-        .len()
-        .saturating_sub(shape::NUMBERS)
-        .max(1);
-    let variance = best.minimum.misfit() / degrees as f64;
-    let correlation = target.autoregression(&best.minimum.residual);
-    Uncertainty::new(
-        &jacobian,
-        variance,
-        (1.0 + correlation) / (1.0 - correlation),
-    )
 }
 
 fn concluded(
@@ -287,9 +192,9 @@ fn concluded(
     split_told: bool,
     slip_told: bool,
 ) -> Result<FamilyFit, FamilyError> {
-    let Best { shape, minimum } = best;
-    let samples = minimum.residual.len();
-    let relative_rms = (minimum.misfit() / samples as f64).sqrt();
+    let shape = best.shape;
+    let samples = best.residual.len();
+    let relative_rms = best.rms();
     let mut fit = FamilyFit {
         drive: target.drive(),
         shape,
@@ -297,10 +202,10 @@ fn concluded(
         estimates: known.estimates(&shape, split_told, slip_told),
         rms: relative_rms * target.scale(),
         relative_rms,
-        autoregression: target.autoregression(&minimum.residual),
+        autoregression: target.autoregression(&best.residual),
         samples,
-        iterations: minimum.iterations,
-        converged: minimum.converged,
+        iterations: best.iterations,
+        converged: best.converged,
         not_identifiable: Vec::new(),
     };
     fit.not_identifiable = not_identifiable(target, &fit, &known, split_told, slip_told);
@@ -341,20 +246,22 @@ fn not_identifiable(
     if !slip_told {
         said.push(format!(
             "F_S and β: these loads do not reach the sliders that slip last. Moving F_S and β \
-             together (β from 0 to infinite at fixed ϑ, χ) changes the {channel} by {:.1e} {unit} \
-             rms against {:.1e} {unit} of misfit; the joint written takes β = 0 and extends the \
-             power law.",
+             together by the whole range of β changes the {channel} by {:.1e} {unit} \
+             rms against {:.1e} {unit} of misfit; the joint written takes β = {:.2} and extends \
+             the power law.",
             effect(LAST_SHARE),
-            fit.rms
+            fit.rms,
+            fit.shape.ratio()
         ));
     }
     if !split_told {
         said.push(format!(
             "K_1 and K_T: only K_1 K_T/(K_1+K_T) = {:.5e} N/m is told, K_T is at least that. The \
              share of the network in the compliance is known to ± {:.2} of 1, against ± 0.57 \
-             without any data; the joint written has K_1 infinite.",
+             without any data; the joint written has K_T = {:.3e} N/m.",
             fit.shape.series_stiffness,
-            NORMAL_95 * known.deviation(NETWORK_SHARE)
+            NORMAL_95 * known.deviation(NETWORK_SHARE),
+            fit.shape.network_stiffness()
         ));
     }
     let loose = known.deviation(2) > 0.25;

@@ -5,7 +5,7 @@ use crate::identify::interval::{Boundary, Estimated, NORMAL_95};
 use nalgebra::DMatrix;
 
 /// Standard deviation of a number known only to lie between 0 and 1.
-const SHARE_UNKNOWN: f64 = 0.289;
+pub const SHARE_UNKNOWN: f64 = 0.289;
 /// Standard deviations of ln K_0, ln loss and χ before any data: so wide that they decide nothing,
 /// so that the covariance exists.
 const WIDE: [f64; 3] = [10.0, 10.0, 2.0];
@@ -57,6 +57,11 @@ impl Uncertainty {
     /// True where the data narrow a share to less than half of what is known without data.
     pub fn knows_share(&self, number: usize) -> bool {
         self.deviation(number) < 0.5 * SHARE_UNKNOWN
+    }
+
+    /// True where the data say nothing at all of a share.
+    pub fn ignores_share(&self, number: usize) -> bool {
+        self.deviation(number) > 0.97 * SHARE_UNKNOWN
     }
 
     /// Standard deviation of a function of the numbers, to first order.
