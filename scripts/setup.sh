@@ -4,13 +4,17 @@
 #   - makes .venv in the repository with the packages of scripts/requirements.txt;
 #   - builds the FMU's shared library (physics only) and the command line `iwan`.
 #
-# Run it from any folder, or source it: it then leaves the variables REPOSITORY, PYTHON and IWAN and
-# exports what bindgen needs to find libclang. Progress goes to stderr.
+# Run it from any folder, or source it: it then leaves the variables REPOSITORY, PYTHON, IWAN and
+# FMU_LIBRARY, and exports what bindgen needs to find libclang. Progress goes to stderr.
 set -euo pipefail
 
 REPOSITORY=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 PYTHON="$REPOSITORY/.venv/bin/python"
 IWAN="$REPOSITORY/target/release/iwan"
+case "$(uname -s)" in
+Darwin) FMU_LIBRARY="$REPOSITORY/target/fmu/release/libiwan.dylib" ;;
+*) FMU_LIBRARY="$REPOSITORY/target/fmu/release/libiwan.so" ;;
+esac
 SETUP_STARTED=$SECONDS
 
 say() {

@@ -8,8 +8,8 @@ use std::fs;
 
 use source::{SourceFile, root, rust_files, words};
 
-/// Lines of the middle file of src/: small files are read whole.
-const MEDIAN_LINES: usize = 130;
+/// Lines of the middle file of src/, its tests at the end not counted: small files are read whole.
+const MEDIAN_LINES: usize = 120;
 /// No file of src/ is longer: beyond this a file has more than one purpose.
 const MOST_LINES: usize = 450;
 /// A file this long is an exception …
@@ -166,7 +166,7 @@ fn pure_rooms_name_no_package() {
 fn files_are_small() {
     let mut sizes: Vec<(usize, String)> = rust_files("src")
         .iter()
-        .map(|file| (file.text.lines().count(), file.path.clone()))
+        .map(|file| (file.lines_before_tests(), file.path.clone()))
         .collect();
     sizes.sort();
     let (middle, _) = sizes[sizes.len() / 2];

@@ -54,11 +54,11 @@ pub fn admit_folder(path: &Path) -> Result<(), BadInput> {
             "{shown}: this is a file; name a folder to write into"
         )));
     }
-    let above = folder_of(path);
-    if !path.is_dir() && !above.is_dir() {
-        let above = above.display();
+    let file_above = path.ancestors().skip(1).find(|above| above.is_file());
+    if let Some(above) = file_above {
         return Err(BadInput(format!(
-            "{shown}: there is no folder `{above}` to make it in; make that first"
+            "{shown}: `{}` is a file; name a folder to write into",
+            above.display()
         )));
     }
     Ok(())
@@ -73,7 +73,7 @@ pub fn make_folder(path: &Path) -> Result<(), BadInput> {
     if path.is_dir() {
         return Ok(());
     }
-    fs::create_dir(path).map_err(|error| {
+    fs::create_dir_all(path).map_err(|error| {
         BadInput(format!(
             "{}: cannot make this folder: {error}",
             path.display()

@@ -1,7 +1,223 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
+mod curves;
 pub mod findings;
+pub mod gain;
 pub mod prepare;
 pub mod search;
+pub mod structure;
+mod verdict;
+mod words;
 
 pub use findings::Findings;
+
+use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
+use prepare::{Bench, prepare};
+use search::{Found, dispersion, search};
+use structure::structure;
+
+use crate::causes::{Kind, find};
+use crate::identify::{Fit, Form, baseline, exported, refit};
+use crate::joint::JointError;
+use crate::record::Record;
+
+/// Diagnoses the records of one joint.
+///
+/// Noise first, then the baseline, then the search for causes on the samples that are not held
+/// out, then the gain on those that are; the joint that is handed out is refitted on everything.
+///
+/// # Errors
+/// [`JointError`] where the records hold no joint at all (no stiffness).
+pub fn diagnose(
+    records: &[Record],
+    mut progress: impl FnMut(&str),
+) -> Result<Findings, JointError> {
+    let timed = records.iter().all(|r| r.time.is_some());
+    progress("noise and baseline");
+    let mut bench = prepare(records);
+    progress("searching the catalogue for causes");
+    let mut found = search(&bench, timed, baseline(&bench.train));
+    if !bench.noise_is_repeated() {
+        let noise = bench.noise_from(&found.best);
+        bench.weigh(noise);
+        progress("searching again with the noise that the best model leaves");
+        found = search(&bench, timed, baseline(&bench.train));
+        let noise = bench.noise_from(&found.best);
+        bench.weigh(noise);
+    }
+    progress("measuring the gain on held-out cycles");
+    assemble(records, &bench, found)
+}
+
+fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings, JointError> {
+    let before = found.baseline.predict(&bench.train);
+    let after = found.best.predict(&bench.train);
+    let gain = gain::ratio(bench, &before, &after);
+    let whole_base = baseline(&bench.whole);
+    let whole = match found.best.effects.is_empty() {
+        true => whole_base.clone(),
+        false => refit(&bench.whole, &found.best, found.best.effects.clone()),
+    };
+    let structure_before = structure(&bench.whole, &whole_base.predict(&bench.whole));
+    let structure_after = structure(&bench.whole, &whole.predict(&bench.whole));
+    let chi = whole.misfit / bench.whole.rows().max(1) as f64;
+    let named = !whole.effects.is_empty();
+    let verdict = verdict::verdict(
+        named,
+        &structure_before,
+        &structure_after,
+        bench.noise_is_repeated(),
+        chi,
+    );
+    let causes = named_causes(bench, &found, &whole);
+    let candidates = candidates(bench, &found, &before);
+    let joint = exported::joint(&bench.whole.operators, &whole)?;
+    let unit = match bench.whole.operators.form {
+        Form::Play => "m",
+        Form::Stop => "N",
+    };
+    let mut findings = Findings {
+        verdict,
+        summary: String::new(),
+        judged: if unit == "m" { "displacement" } else { "force" }.to_string(),
+        unit: unit.to_string(),
+        records: records
+            .iter()
+            .map(|r| (r.name.clone(), r.len(), String::new()))
+            .collect(),
+        causes,
+        candidates,
+        noise: noise(bench, unit),
+        baseline: gain::errors(bench, &before),
+        extended: gain::errors(bench, &after),
+        gain,
+        unexplained: Unexplained {
+            share: match verdict {
+                Verdict::Clean => 0.0,
+                _ if structure_before.share > 0.0 => {
+                    (structure_after.share / structure_before.share).min(1.0)
+                }
+                _ => 0.0,
+            },
+            places: match verdict {
+                Verdict::Clean | Verdict::Explained => Vec::new(),
+                _ => words::places(bench, &structure_after),
+            },
+        },
+        not_identifiable: words::not_identifiable(records),
+        next_experiment: None,
+        joint_parameters: words::joint_parameters(&joint),
+        notes: words::notes(records, bench),
+        joint,
+        curves: curves::curves(bench, &before, &after),
+    };
+    findings.next_experiment = words::next_experiment(&findings);
+    findings.summary = words::summary(&findings);
+    Ok(findings)
+}
+
+fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
+    let spread = dispersion(&bench.whole, whole).sqrt();
+    let mut causes: Vec<NamedCause> = whole
+        .effects
+        .iter()
+        .enumerate()
+        .map(|(e, acting)| {
+            let parameters = acting
+                .effect
+                .parameters()
+                .iter()
+                .zip(&acting.values)
+                .zip(&whole.errors[e])
+                .map(|((parameter, &value), &error)| {
+                    let half = 1.96 * error * spread;
+                    Estimate {
+                        name: parameter.name.to_string(),
+                        value,
+                        unit: parameter.unit.to_string(),
+                        interval: half.is_finite().then(|| {
+                            (
+                                (value - half).max(parameter.lower),
+                                (value + half).min(parameter.upper),
+                            )
+                        }),
+                    }
+                })
+                .collect();
+            NamedCause {
+                name: acting.effect.name().to_string(),
+                kind: kind(acting.effect.name()),
+                parameters,
+                ambiguous_with: found.rivals.get(e).cloned().unwrap_or_default(),
+                evidence: found.evidence.get(e).copied().unwrap_or(0.0),
+                matters: gain::share_of_energy(&bench.whole, whole, e),
+            }
+        })
+        .collect();
+    causes.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    causes
+}
+
+fn kind(name: &str) -> String {
+    match find(name).map(|c| c.kind()) {
+        Some(Kind::Measurement) => "measurement",
+        _ => "joint",
+    }
+    .to_string()
+}
+
+/// The whole catalogue with evidence, probability (against each other and none, prior even) and
+/// what each alone would do to the held-out error.
+fn candidates(
+    bench: &Bench,
+    found: &Found,
+    before: &[crate::identify::Prediction],
+) -> Vec<Candidate> {
+    let highest = found.trials.iter().fold(0.0_f64, |a, t| a.max(t.evidence));
+    let weight = |evidence: f64| (0.5 * (evidence - highest)).exp();
+    let total: f64 = weight(0.0) + found.trials.iter().map(|t| weight(t.evidence)).sum::<f64>();
+    let mut all: Vec<Candidate> = found
+        .trials
+        .iter()
+        .map(|trial| Candidate {
+            name: trial.cause.name().to_string(),
+            kind: kind(trial.cause.name()),
+            evidence: 0.5 * trial.evidence,
+            probability: weight(trial.evidence) / total,
+            lambda_sep: None,
+            held_out_gain: (trial.evidence > 0.0)
+                .then(|| gain::ratio(bench, before, &trial.fit.predict(&bench.train)).0),
+        })
+        .collect();
+    for cause in crate::causes::CATALOGUE {
+        if !all.iter().any(|c| c.name == cause.name()) {
+            all.push(Candidate {
+                name: cause.name().to_string(),
+                kind: kind(cause.name()),
+                evidence: 0.0,
+                probability: 0.0,
+                lambda_sep: None,
+                held_out_gain: None,
+            });
+        }
+    }
+    all
+}
+
+fn noise(bench: &Bench, unit: &str) -> NoiseFinding {
+    let count = bench.noise.len().max(1) as f64;
+    let rms = (bench.noise.iter().map(|n| n.deviation.powi(2)).sum::<f64>() / count).sqrt();
+    let autoregression = bench.noise.iter().map(|n| n.autoregression).sum::<f64>() / count;
+    let rows = bench.whole.rows() as f64;
+    NoiseFinding {
+        rms,
+        unit: unit.to_string(),
+        autoregression,
+        method: if bench.noise_is_repeated() {
+            "second differences of repeated steady cycles, no model".to_string()
+        } else {
+            "residual of the best model, because too few cycles repeat".to_string()
+        },
+        effective_samples: rows * (1.0 - autoregression) / (1.0 + autoregression),
+    }
+}

@@ -3,7 +3,7 @@
 use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::noise::{Noise, from_differences, from_repeats};
+use crate::record::noise::{Noise, from_differences, from_repeats, from_residual};
 use crate::record::split::held_out;
 
 /// Records ready for the search.
@@ -83,33 +83,69 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 /// Prepares records: form, first unweighted baseline, noise, weights, marks.
 pub fn prepare(records: &[Record]) -> Bench {
     let form = form(records);
-    let mut whole = Problem::new(form, records);
+    let whole = Problem::new(form, records);
     let first = baseline(&whole);
     let noise = noise(&whole, &first);
-    for (record, noise) in whole.records.iter_mut().zip(&noise) {
-        let a = noise.autoregression;
-        let innovation = noise.deviation * (1.0 - a * a).sqrt();
-        record.autoregression = a;
-        record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
-    }
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
-    let mut train = whole.clone();
-    for (record, held) in train.records.iter_mut().zip(&held) {
-        for (weight, held) in record.weight.iter_mut().zip(held) {
-            if *held {
-                *weight = 0.0;
-            }
-        }
-    }
     let scale = scale(&whole, &first);
-    Bench {
+    let train = whole.clone();
+    let mut bench = Bench {
         whole,
         train,
         held,
-        noise,
+        noise: Vec::new(),
         scale,
+    };
+    bench.weigh(noise);
+    bench
+}
+
+impl Bench {
+    /// True where repeated cycles gave the noise of every record.
+    pub fn noise_is_repeated(&self) -> bool {
+        self.noise.iter().all(|n| n.repeated)
+    }
+
+    /// Weighs every sample by the given noise, held-out ones not at all in `train`.
+    pub fn weigh(&mut self, noise: Vec<Noise>) {
+        for (k, noise) in noise.iter().enumerate() {
+            let a = noise.autoregression;
+            let innovation = noise.deviation * (1.0 - a * a).sqrt();
+            for (problem, keep) in [(&mut self.whole, true), (&mut self.train, false)] {
+                let record = &mut problem.records[k];
+                record.autoregression = a;
+                for (weight, held) in record.weight.iter_mut().zip(&self.held[k]) {
+                    *weight = if keep || !held { 1.0 / innovation } else { 0.0 };
+                }
+            }
+        }
+        self.noise = noise;
+    }
+
+    /// Noise read off the residual of the given fit, for records in which nothing repeats: what
+    /// the best model leaves is noise until a test of structure says otherwise.
+    pub fn noise_from(&self, fit: &Fit) -> Vec<Noise> {
+        let predictions = fit.predict(&self.whole);
+        (0..self.whole.records.len())
+            .map(|k| {
+                if self.noise[k].repeated {
+                    return self.noise[k];
+                }
+                let (_, judged) = self.whole.channels(k);
+                let residual: Vec<f64> = judged
+                    .iter()
+                    .zip(&predictions[k].judged)
+                    .map(|(y, p)| y - p)
+                    .collect();
+                let noise = from_residual(&residual);
+                Noise {
+                    deviation: noise.deviation.max(1e-9 * rms(judged)),
+                    ..noise
+                }
+            })
+            .collect()
     }
 }
 

@@ -67,3 +67,60 @@ pub fn stop<T>(body: impl FnOnce() -> Result<T, Refusal>) -> Result<T, Refusal> 
         Err(Refusal::Defect { message })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::bundle::Bundle;
+    use super::super::calls;
+    use super::super::calls::Mode;
+    use super::*;
+    use crate::joint::{Density, Drive, Joint};
+
+    fn instance() -> Instance {
+        let density = Density::from_values("four_parameter", &[1000.0, 1e7, -0.3, 0.2]).unwrap();
+        let joint = Joint::new(density, f64::INFINITY, Vec::new()).unwrap();
+        let bundle = Bundle {
+            joint,
+            drive: Drive::Force,
+            guid: String::new(),
+        };
+        Instance::new(bundle, "tested", None, false).unwrap()
+    }
+
+    fn message<T>(outcome: Result<T, Refusal>) -> String {
+        match outcome {
+            Err(Refusal::Defect { message }) => message,
+            _ => "not stopped".to_owned(),
+        }
+    }
+
+    #[test]
+    fn a_panic_becomes_a_refusal_with_its_text() {
+        assert_eq!(message(stop::<()>(|| panic!("plain"))), "plain");
+        let value = 7;
+        assert_eq!(
+            message(stop::<()>(|| panic!("formatted {value}"))),
+            "formatted 7"
+        );
+        let other = stop::<()>(|| std::panic::panic_any(7));
+        assert_eq!(message(other), "panic without a text");
+        assert_eq!(stop(|| Ok(7)).unwrap(), 7);
+    }
+
+    #[test]
+    fn after_a_panic_only_reset_a_saved_state_or_freeing_help() {
+        let mut instance = instance();
+        let status = on_instance(&mut instance, &calls::RESET, |_| panic!("held"));
+        assert_eq!((status, instance.mode()), (Status::Error, Mode::Broken));
+        for call in [
+            calls::DO_STEP,
+            calls::GET_REAL,
+            calls::SET_REAL,
+            calls::GET_FMU_STATE,
+        ] {
+            assert_eq!(on_instance(&mut instance, &call, |_| Ok(())), Status::Error);
+        }
+        let status = on_instance(&mut instance, &calls::RESET, Instance::reset);
+        assert_eq!((status, instance.mode()), (Status::Ok, Mode::Instantiated));
+    }
+}

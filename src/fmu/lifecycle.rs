@@ -63,46 +63,52 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _visible: Boolean,
     logging_on: Boolean,
 ) -> Component {
-    // SAFETY: strings and callbacks as the standard asks. The callbacks are copied, so that a host
-    // whose structure moves does no harm.
-    let (callbacks, name) = unsafe {
-        (
-            functions.as_ref().copied(),
-            pointers::text("instanceName", name),
-        )
-    };
+    // SAFETY: callbacks as the standard asks. They are copied, so that a host whose structure moves
+    // does no harm.
+    let callbacks = unsafe { functions.as_ref().copied() };
     // SAFETY: strings as the standard asks.
-    let made = stop(|| unsafe {
-        if fmu_type != CO_SIMULATION {
-            return Err(Refusal::NotCoSimulation { came: fmu_type });
-        }
-        let guid = pointers::text("fmuGUID", guid)?;
-        if resource_location.is_null() {
-            return Err(Refusal::NoLocation);
-        }
-        let bundle = Bundle::read(
-            pointers::text("fmuResourceLocation", resource_location)?,
-            guid,
-        )?;
-        Instance::new(
-            bundle,
-            name.as_ref().copied().unwrap_or_default(),
-            callbacks,
-            logging_on != FALSE,
-        )
-    });
-    match made {
-        Ok(instance) => {
-            instance.tell(&format!("instantiated from {STAMP}"));
-            Box::into_raw(Box::new(instance)).cast()
-        }
-        Err(refusal) => {
-            let messenger = Messenger::new(callbacks, name.unwrap_or_default(), false);
+    let texts = || unsafe {
+        Ok(Texts {
+            name: pointers::text("instanceName", name)?,
+            guid: pointers::text("fmuGUID", guid)?,
+            location: match resource_location.is_null() {
+                true => return Err(Refusal::NoLocation),
+                false => pointers::text("fmuResourceLocation", resource_location)?,
+            },
+        })
+    };
+    let made = stop(|| instance(fmu_type, texts()?, callbacks, logging_on != FALSE));
+    made.map_or_else(
+        |refusal| {
             let text = format!("fmi2Instantiate: {refusal}");
+            let messenger = Messenger::new(callbacks, "IwanJoint", false);
             messenger.tell(Status::Error, Category::Error, &text);
             std::ptr::null_mut()
-        }
+        },
+        |instance| Box::into_raw(Box::new(instance)).cast(),
+    )
+}
+
+/// The texts of fmi2Instantiate.
+struct Texts<'a> {
+    name: &'a str,
+    guid: &'a str,
+    location: &'a str,
+}
+
+fn instance(
+    fmu_type: Type,
+    texts: Texts,
+    callbacks: Option<CallbackFunctions>,
+    debug: bool,
+) -> Result<Instance, Refusal> {
+    if fmu_type != CO_SIMULATION {
+        return Err(Refusal::NotCoSimulation { came: fmu_type });
     }
+    let bundle = Bundle::read(texts.location, texts.guid)?;
+    let instance = Instance::new(bundle, texts.name, callbacks, debug)?;
+    instance.tell(&format!("instantiated from {STAMP}"));
+    Ok(instance)
 }
 
 /// Frees an instance; NULL is legal. Saved states of it stay with the host until it frees them.

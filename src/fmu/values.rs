@@ -29,7 +29,7 @@ impl Instance {
                         Some(output) => output,
                         None => *answer.insert(self.answer()?),
                     };
-                    signal_of(&output, signal)
+                    signal.of(&output)
                 }
             };
             values.push(value);
@@ -128,17 +128,5 @@ impl Instance {
             dissipation_rate: self.motion.dissipation_rate,
             ..output
         })
-    }
-}
-
-fn signal_of(output: &Output, signal: Signal) -> f64 {
-    match signal {
-        Signal::Force => output.force,
-        Signal::Displacement => output.displacement,
-        Signal::Dissipation => output.dissipation,
-        Signal::DissipationRate => output.dissipation_rate,
-        Signal::StoredEnergy => output.stored_energy,
-        Signal::SlipDisplacement => output.slip_displacement,
-        Signal::TangentStiffness => output.tangent_stiffness,
     }
 }

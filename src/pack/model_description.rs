@@ -150,11 +150,10 @@ fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> 
         chosen.map(|(index, _)| (index + 1).to_string()).collect()
     };
     let outputs = indices(&[Causality::Output]);
-    let initial = indices(&[Causality::Output, Causality::Local]);
     let knowns = indices(&[Causality::Input, Causality::Parameter]).join(" ");
     within(writer, "ModelStructure", vec![], |writer| {
         unknowns(writer, "Outputs", &outputs, "")?;
-        unknowns(writer, "InitialUnknowns", &initial, &knowns)
+        unknowns(writer, "InitialUnknowns", &outputs, &knowns)
     })
 }
 

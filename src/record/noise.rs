@@ -23,51 +23,81 @@ pub struct Noise {
 /// such triples.
 pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
     let found = cycles(drive);
-    let mut differences: Vec<Vec<f64>> = Vec::new();
-    for triple in found.windows(3) {
-        if !alike(&triple[0], &triple[1]) || !alike(&triple[1], &triple[2]) {
-            continue;
-        }
-        let back = -shift(
-            drive,
-            &triple[1],
-            triple[0].start as f64 - triple[1].start as f64,
-        );
-        let forth = shift(
-            drive,
-            &triple[1],
-            triple[2].start as f64 - triple[1].start as f64,
-        );
-        let amplitude = triple[1].amplitude;
-        let mut part = Vec::new();
-        let mut same = 0.0_f64;
-        for i in triple[1].start..triple[1].end {
-            let (Some((before, one)), Some((after, other))) = (
-                interpolate(response, i as f64 - back),
-                interpolate(response, i as f64 + forth),
-            ) else {
-                continue;
-            };
-            let load = interpolate(drive, i as f64 - back).map_or(0.0, |v| v.0) - 2.0 * drive[i]
-                + interpolate(drive, i as f64 + forth).map_or(0.0, |v| v.0);
-            same = same.max(load.abs());
-            part.push((before - 2.0 * response[i] + after) / (4.0 + one + other).sqrt());
-        }
-        if same < 0.02 * amplitude && part.len() > 8 {
-            differences.push(part);
-        }
-    }
-    let samples: usize = differences.iter().map(Vec::len).sum();
-    if samples < 150 {
+    // A fourth equal cycle in front makes sure that the memory of another level has closed.
+    let settled: Vec<Vec<f64>> = found
+        .windows(4)
+        .filter(|w| w.windows(2).all(|pair| alike(&pair[0], &pair[1])))
+        .filter_map(|w| differences(drive, response, &w[1..]))
+        .collect();
+    let any: Vec<Vec<f64>> = if count(&settled) >= ENOUGH {
+        settled
+    } else {
+        found
+            .windows(3)
+            .filter(|w| w.windows(2).all(|pair| alike(&pair[0], &pair[1])))
+            .filter_map(|w| differences(drive, response, w))
+            .collect()
+    };
+    let calm = calm(any);
+    let samples = count(&calm);
+    if samples < ENOUGH {
         return None;
     }
-    let (deviation, autoregression) = moments(&differences);
+    let (deviation, autoregression) = moments(&calm);
     Some(Noise {
         deviation,
         autoregression,
         samples,
         repeated: true,
     })
+}
+
+/// Fewest samples in repeated cycles from which noise is estimated.
+const ENOUGH: usize = 150;
+
+fn count(parts: &[Vec<f64>]) -> usize {
+    parts.iter().map(Vec::len).sum()
+}
+
+/// Second differences of the response over three equal cycles, scaled to the noise's own variance;
+/// `None` where the drive does not repeat well enough.
+fn differences(drive: &[f64], response: &[f64], triple: &[Cycle]) -> Option<Vec<f64>> {
+    let [first, middle, last] = triple else {
+        return None;
+    };
+    let back = -shift(drive, middle, first.start as f64 - middle.start as f64);
+    let forth = shift(drive, middle, last.start as f64 - middle.start as f64);
+    let mut part = Vec::new();
+    let mut unequal = 0.0;
+    for i in middle.start..middle.end {
+        let at = i as f64;
+        if let (Some((before, one)), Some((after, other)), Some((low, _)), Some((high, _))) = (
+            interpolate(response, at - back),
+            interpolate(response, at + forth),
+            interpolate(drive, at - back),
+            interpolate(drive, at + forth),
+        ) {
+            unequal += (low - 2.0 * drive[i] + high).powi(2);
+            part.push((before - 2.0 * response[i] + after) / (4.0 + one + other).sqrt());
+        }
+    }
+    let unequal = (unequal / part.len().max(1) as f64).sqrt();
+    (unequal < 0.02 * middle.amplitude && part.len() > 8).then_some(part)
+}
+
+/// Keeps the triples whose variance is at most twice the lower quartile's: the others hold a
+/// change of the response itself, which no noise estimate may contain.
+fn calm(parts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let square = |part: &Vec<f64>| part.iter().map(|v| v * v).sum::<f64>() / part.len() as f64;
+    let mut squares: Vec<f64> = parts.iter().map(square).collect();
+    squares.sort_by(f64::total_cmp);
+    let Some(&quartile) = squares.get(squares.len() / 4) else {
+        return parts;
+    };
+    parts
+        .into_iter()
+        .filter(|part| square(part) <= 2.0 * quartile)
+        .collect()
 }
 
 /// Noise of a residual that nothing repeats in: its own variance and correlation of neighbours.

@@ -1,7 +1,7 @@
 //! The tables of modelDescription/, as build.rs makes them into constants.
 
 use super::{Place, Variable};
-use crate::joint::Drive;
+use crate::joint::{Drive, Output};
 
 /// Role of a variable in the exported unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,3 +60,18 @@ impl SignalRow {
 }
 
 include!(concat!(env!("OUT_DIR"), "/references.rs"));
+
+impl Signal {
+    /// This signal in the answer of a simulation [SI].
+    pub fn of(self, output: &Output) -> f64 {
+        match self {
+            Signal::Force => output.force,
+            Signal::Displacement => output.displacement,
+            Signal::Dissipation => output.dissipation,
+            Signal::DissipationRate => output.dissipation_rate,
+            Signal::StoredEnergy => output.stored_energy,
+            Signal::SlipDisplacement => output.slip_displacement,
+            Signal::TangentStiffness => output.tangent_stiffness,
+        }
+    }
+}

@@ -17,7 +17,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from laboratory.blind import blind_test  # noqa: E402
-from laboratory.effects import CATALOGUE, FOREIGN  # noqa: E402
+from laboratory.effects import FOREIGN  # noqa: E402
+from laboratory.effects_catalogue import FIRST  # noqa: E402
 
 # At five times the noise: least share in the stated set; most false alarms on clean cases; most
 # foreign effects asserted to be explained. A diagnosis that fails is a defect whatever its case.
@@ -36,7 +37,7 @@ def main():
     asked = parser.parse_args()
     seed = int(time.time()) if asked.seed is None else asked.seed
     effects = []  # every second case is one of the catalogue, every fourth clean, every fourth not
-    known, foreign = list(CATALOGUE), list(FOREIGN)
+    known, foreign = [effect.name for effect in FIRST], list(FOREIGN)
     for j in range(asked.cases):
         k = j // 4 + seed  # begins elsewhere for every seed, so that runs cover all effects
         effects.append(

@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from .case import draw_case, write_case
-from .effects import EFFECTS
+from .effects import EFFECTS, in_turn
 from .score import Unreadable, failure, judge, matrix, print_matrix, print_totals, totals
 
 LIMIT = 600.0  # [s] a diagnosis may take
@@ -67,11 +67,6 @@ def one_case(work):
     return marks
 
 
-def assignment(cases, effects):
-    """The effects of the cases in turn, so that each is drawn equally often."""
-    return [effects[j % len(effects)] for j in range(cases)]
-
-
 def blind_test(seed, cases, iwan, directory, effects=None, span=(1.0, 5.0), jobs=2, more=()):
     """Run the whole test; returns and writes DIR/blind.json."""
     unknown = set(effects or []) - set(EFFECTS)
@@ -79,7 +74,7 @@ def blind_test(seed, cases, iwan, directory, effects=None, span=(1.0, 5.0), jobs
         raise SystemExit(
             f"no such effect: {', '.join(sorted(unknown))}; known: {', '.join(EFFECTS)}"
         )
-    names = assignment(cases, list(effects or EFFECTS))
+    names = in_turn(cases, effects)
     print(f"seed {seed}, {cases} cases, ratio {span[0]:g} to {span[1]:g}", flush=True)
     work = [(seed, j, name, span, iwan, directory, more) for j, name in enumerate(names)]
     marks, not_drawn = [], []

@@ -133,7 +133,8 @@ def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
         level = 10 ** rng.uniform(-3.0, -2.0)
         colour = noise.draw_colour(rng)
         rms = level * gauge.rms
-        if gauge.floor > FLOOR * rms:
+        most = FLOOR if name == "clean" else min(FLOOR, 0.3 * ratio)
+        if gauge.floor > most * rms:
             refused.append(f"sampling error {gauge.floor / rms:.2f} of the noise")
             continue
         effect, found, sampled = Effect(), gauge.floor, gauge.clean

@@ -23,7 +23,7 @@ class Scaled(Effect):
         raise NotImplementedError
 
 
-def _softplus(x):
+def softplus(x):
     """log(1 + exp x) and its slope, without overflow."""
     if x > 30.0:
         return x, 1.0
@@ -55,7 +55,7 @@ class Pinning(Scaled):
 
     def _side(self, beyond):
         if self.law == "softplus":
-            force, slope = _softplus(beyond / self.round)
+            force, slope = softplus(beyond / self.round)
             return force * self.round, slope
         if beyond <= 0.0:
             return 0.0, 0.0

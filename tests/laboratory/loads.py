@@ -35,13 +35,13 @@ class History:
 class Tape:
     """Amplitude, rate and mean written segment by segment; played as amplitude sin(phase)."""
 
-    def __init__(self, step):
-        self.step = step
+    def __init__(self, step, grain=1):
+        self.step, self.grain = step, grain  # [s], and the steps between two samples
         self.amplitude, self.rate, self.mean = [], [], []
         self.level, self.bias = 0.0, 0.0
 
     def _write(self, seconds, rate, level, bias):
-        n = max(2, int(round(seconds / self.step)))
+        n = max(2, self.grain * int(round(seconds / self.step / self.grain)))
         ease = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, n + 1) / n)
         self.amplitude.append(self.level + (level - self.level) * ease)
         self.mean.append(self.bias + (bias - self.bias) * ease)
@@ -93,7 +93,7 @@ def stepped(rng, rates, spc, shape, holds, mean, step_back=True):
     """Steps of amplitude at each rate; `spc` samples per cycle of the fastest rate."""
     fastest = max(rates)
     fine = int(np.clip(np.ceil(320 / spc), 2, 5))
-    tape = Tape(1.0 / (fastest * spc * fine))
+    tape = Tape(1.0 / (fastest * spc * fine), fine)
     count = int(rng.integers(3, 6))
     steps = _amplitudes(rng, count)
     if mean:
@@ -120,13 +120,20 @@ def monotone(rng, rates, spc, mean):
     fastest = max(rates)
     step = 1.0 / (fastest * spc * fine)
     corners, legs = [0.0], []
+
+    def leg(turn, rate):
+        """Seconds to the next corner, a whole number of samples."""
+        return np.ceil(max(abs(turn - corners[-1]), 0.2) * spc * fastest / (4 * rate)) / (
+            spc * fastest
+        )
+
     for rate in rates:
         for level in _amplitudes(rng, 3):
             for turn in (level, -level * rng.choice([0.0, 1.0]), level, 0.0):
-                legs.append(max(abs(turn - corners[-1]), 0.2) / (4 * rate))
+                legs.append(leg(turn, rate))
                 corners.append(turn)
         for turn in (1.0, -1.0) * 3 + (0.0,):
-            legs.append(max(abs(turn - corners[-1]), 0.2) / (4 * rate))
+            legs.append(leg(turn, rate))
             corners.append(turn)
     knots = np.concatenate([[0.0], np.cumsum(legs)])
     command = np.interp(step * np.arange(int(knots[-1] / step)), knots, corners)
@@ -162,7 +169,12 @@ def draw_history(rng, slow, kind, budget, holds=False):
         spc = float(rng.uniform(60, 160))
         apart = rng.uniform(2.5, 8.0)
         rates = [slow, slow * apart]
-        if rng.random() < 0.2 and apart < 4:
+        if kind == "ramps":
+            # A corner between two samples would be lost; the rig's clock is also the sampler's.
+            spc = 4.0 * round(spc / 4.0)
+            apart = 4.0 * round(spc * apart / 4.0) / spc
+            rates = [slow, slow * apart]
+        elif rng.random() < 0.2 and apart < 4:
             rates.insert(1, slow * apart**0.5)
         if rng.random() < 0.2:
             rates.reverse()

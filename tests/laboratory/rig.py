@@ -33,6 +33,7 @@ class Effect:
 
     name = "clean"
     acts: frozenset = frozenset()
+    dt = 0.0  # [s] of the grid; set when a test begins
 
     def reset(self):
         """Return to the virgin specimen."""
@@ -72,7 +73,7 @@ class Effect:
 class Step:
     """What a finished step tells an effect."""
 
-    __slots__ = ("dt", "slip", "moved", "force", "network", "displacement", "heat", "sliding")
+    __slots__ = ("dt", "slip", "moved", "force", "network", "displacement", "heat", "stuck")
 
 
 def drive(joint, time, command, by_force, effect=None):
@@ -81,6 +82,7 @@ def drive(joint, time, command, by_force, effect=None):
     Raises Infeasible where the joint slips away under the force.
     """
     effect = effect or Effect()
+    effect.dt = float(time[1] - time[0])
     effect.reset()
     acts = effect.acts
     moving_limits, has_contact = "limits" in acts, "contact" in acts
@@ -165,6 +167,6 @@ def drive(joint, time, command, by_force, effect=None):
         if has_after:
             step.dt, step.slip, step.moved, step.heat = dt, u, moved, work
             step.force, step.network, step.displacement = force, network, displacement
-            step.sliding = stuck
+            step.stuck = stuck
             effect.after(step)
     return Trace(time, forces, totals, slips, heat)

@@ -8,7 +8,7 @@ pub struct SourceFile {
     /// Path from the repository's root, with `/`.
     pub path: String,
     /// The text as it stands.
-    pub text: String,
+    text: String,
     /// The text with comments and literals blanked; line numbers unchanged.
     pub code: String,
 }
@@ -67,6 +67,14 @@ impl SourceFile {
     /// First folder below src/, or the file's own name where it stands there directly.
     pub fn room(&self) -> &str {
         self.path.split('/').nth(1).unwrap().trim_end_matches(".rs")
+    }
+
+    /// Count of lines before the tests at the file's end.
+    pub fn lines_before_tests(&self) -> usize {
+        match self.text.find("\n#[cfg(test)]\nmod ") {
+            Some(end) => self.text[..=end].lines().count(),
+            None => self.text.lines().count(),
+        }
     }
 
     /// Lines of code with their numbers from 1.

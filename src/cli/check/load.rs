@@ -1,0 +1,96 @@
+//! The load under which an archive is compared.
+
+use crate::cli::input::{Foreign, tell_notes};
+use crate::joint::{Drive, Joint, JointError, Simulation, VirginCurve};
+use crate::read::{self, Quantity};
+use std::path::Path;
+
+/// Input over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// Time \[s\], strictly increasing.
+    pub time: Vec<f64>,
+    /// Force \[N\] or displacement \[m\], by the drive.
+    pub input: Vec<f64>,
+}
+
+/// Samples of the load that is made, and its length in seconds.
+const SAMPLES: usize = 2000;
+const DURATION: f64 = 4.0;
+/// Tries with a halved load before a joint is given up that refuses them all.
+const HALVINGS: usize = 40;
+
+impl Load {
+    /// The load of a file.
+    ///
+    /// # Errors
+    /// [`read::ReadError`].
+    pub fn read(file: &Path, foreign: &Foreign, drive: Drive) -> anyhow::Result<Load> {
+        let table = read::load_table(file, &foreign.options()?)?;
+        tell_notes(file, &table.notes);
+        let (quantity, input) = match drive {
+            Drive::Force => (Quantity::Force, &table.force),
+            Drive::Displacement => (Quantity::Displacement, &table.displacement),
+        };
+        let input = input.clone().ok_or_else(|| table.missing(quantity))?;
+        Ok(Load {
+            time: table.time,
+            input,
+        })
+    }
+
+    /// A two-tone load that grows until the network has lost a fifth of its stiffness, so that
+    /// loops nest and close. Halved while the joint refuses it, as effects may lower full slip.
+    ///
+    /// # Errors
+    /// What the joint says to the smallest load.
+    pub fn made_for(joint: &Joint, drive: Drive) -> anyhow::Result<Load> {
+        let slip = softened(joint);
+        let force = joint.density.force(slip);
+        let mut size = match drive {
+            Drive::Force => force,
+            Drive::Displacement => slip + force / joint.series_stiffness,
+        };
+        let mut refused = Ok(());
+        for _ in 0..HALVINGS {
+            let load = Load::two_tone(size);
+            match load.runs(joint, drive) {
+                Ok(()) => return Ok(load),
+                Err(error) => refused = Err(error),
+            }
+            size /= 2.0;
+        }
+        Ok(refused.map(|()| Load::two_tone(size))?)
+    }
+
+    fn two_tone(size: f64) -> Load {
+        let time: Vec<f64> = (0..=SAMPLES)
+            .map(|i| DURATION * i as f64 / SAMPLES as f64)
+            .collect();
+        let input = time.iter().map(|t| {
+            let turns = std::f64::consts::TAU * t;
+            size * (t / DURATION) * ((2.0 * turns).sin() + 0.5 * (11.0 * turns).sin()) / 1.5
+        });
+        Load {
+            input: input.collect(),
+            time,
+        }
+    }
+
+    fn runs(&self, joint: &Joint, drive: Drive) -> Result<(), JointError> {
+        let mut simulation = Simulation::new(joint, drive)?;
+        let mut rows = self.time.iter().zip(&self.input);
+        rows.try_for_each(|(time, input)| simulation.step(*time, *input).map(|_| ()))
+    }
+}
+
+/// Slip \[m\] at which the network has lost a fifth of its stiffness, to a factor of two; a joint
+/// that never softens gets one metre.
+fn softened(joint: &Joint) -> f64 {
+    let wanted = 0.8 * joint.density.initial_stiffness();
+    let slips = std::iter::successors(Some(1e-15), |slip| Some(slip * 2.0));
+    let mut slips = slips.take_while(|slip| *slip < 1.0);
+    slips
+        .find(|slip| joint.density.stiffness(*slip) <= wanted)
+        .unwrap_or(1.0)
+}

@@ -1,0 +1,157 @@
+//! Structure beyond noise: does what a model leaves repeat with the load or wander with time?
+
+use crate::identify::problem::whiten;
+use crate::identify::{Prediction, Problem};
+use crate::record::cycles::{alike, cycles};
+
+/// What a model leaves, split into noise and structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// Variance that means over bins share, over the variance within bins: zero for noise.
+    pub share: f64,
+    /// Standard deviations by which the bins' means exceed what noise gives them.
+    pub significance: f64,
+    /// Bins that stand out most: record, first and last sample, deviation over its own error.
+    pub places: Vec<Place>,
+}
+
+/// One bin that stands out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// Index of the record.
+    pub record: usize,
+    /// First sample.
+    pub from: usize,
+    /// Last sample.
+    pub to: usize,
+    /// Share of the structured variance in this bin.
+    pub share: f64,
+}
+
+/// Phases a cycle is cut into.
+const PHASES: usize = 16;
+
+/// Bins the whitened residual by record × load level × phase (what repeats with the load), and by
+/// record × cycle (what wanders from cycle to cycle), and compares the means with the scatter
+/// within.
+pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
+    let mut bins: Vec<Bin> = Vec::new();
+    for (k, prediction) in predictions.iter().enumerate() {
+        let (input, judged) = problem.channels(k);
+        let record = &problem.records[k];
+        let mut white = Vec::with_capacity(judged.len());
+        let mut before = None;
+        for (&y, &p) in judged.iter().zip(&prediction.judged) {
+            white.push(whiten(record.autoregression, y - p, before).0);
+            before = Some(y - p);
+        }
+        for (from, to, phases) in pieces(input) {
+            let mut own = vec![Bin::new(k, from, to); phases];
+            for (start, end) in cuts(input, from, to) {
+                for i in start..end {
+                    let phase = (i - start) * phases / (end - start).max(1);
+                    own[phase.min(phases - 1)].add(white[i]);
+                }
+            }
+            bins.append(&mut own);
+        }
+    }
+    bins.retain(|b| b.count >= 3.0);
+    let total: f64 = bins.iter().map(|b| b.count).sum();
+    let within: f64 = bins
+        .iter()
+        .map(|b| b.square - b.sum * b.sum / b.count)
+        .sum();
+    let free = (total - bins.len() as f64).max(1.0);
+    let variance = within / free;
+    if !(variance > 0.0) || bins.is_empty() {
+        return Structure {
+            share: 0.0,
+            significance: 0.0,
+            places: Vec::new(),
+        };
+    }
+    let between: f64 = bins.iter().map(|b| b.sum * b.sum / b.count).sum::<f64>() / variance;
+    let count = bins.len() as f64;
+    let excess = between - count;
+    let mut places: Vec<Place> = bins
+        .iter()
+        .map(|b| Place {
+            record: b.record,
+            from: b.from,
+            to: b.to,
+            share: (b.sum * b.sum / b.count / variance - 1.0) / excess.max(1.0),
+        })
+        .collect();
+    places.sort_by(|a, b| b.share.total_cmp(&a.share));
+    places.truncate(5);
+    Structure {
+        share: (excess / total).max(0.0),
+        significance: excess / (2.0 * count).sqrt(),
+        places,
+    }
+}
+
+#[derive(Debug, Clone)]
+struct Bin {
+    record: usize,
+    from: usize,
+    to: usize,
+    count: f64,
+    sum: f64,
+    square: f64,
+}
+
+impl Bin {
+    fn new(record: usize, from: usize, to: usize) -> Bin {
+        Bin {
+            record,
+            from,
+            to,
+            count: 0.0,
+            sum: 0.0,
+            square: 0.0,
+        }
+    }
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        self.sum += value;
+        self.square += value * value;
+    }
+}
+
+/// Load levels (with phases to fold them over) and what lies between them.
+fn pieces(input: &[f64]) -> Vec<(usize, usize, usize)> {
+    let found = cycles(input);
+    let mut pieces = Vec::new();
+    let mut at = 0;
+    let mut i = 0;
+    while i < found.len() {
+        let mut j = i + 1;
+        while j < found.len() && j - i < 4 && alike(&found[j - 1], &found[j]) {
+            j += 1;
+        }
+        if found[i].start > at {
+            pieces.push((at, found[i].start, PHASES));
+        }
+        pieces.push((found[i].start, found[j - 1].end, PHASES));
+        at = found[j - 1].end;
+        i = j;
+    }
+    if at < input.len() {
+        pieces.push((at, input.len(), if found.is_empty() { 100 } else { PHASES }));
+    }
+    pieces
+}
+
+/// Cycles inside a piece; the piece itself where it holds none.
+fn cuts(input: &[f64], from: usize, to: usize) -> Vec<(usize, usize)> {
+    let inside: Vec<(usize, usize)> = cycles(&input[from..to])
+        .iter()
+        .map(|c| (from + c.start, from + c.end))
+        .collect();
+    match inside.first() {
+        Some(&(first, _)) if first - from < 8 => inside,
+        _ => vec![(from, to)],
+    }
+}

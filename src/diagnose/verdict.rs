@@ -1,0 +1,36 @@
+//! From fits and structure to a verdict.
+
+use super::findings::Verdict;
+use super::structure::Structure;
+
+/// Standard deviations of the bins' means beyond which structure is there: with tens of bins the
+/// chance of noise alone is below one in a million, which leaves room for noise that is not quite
+/// what it was taken for.
+const STRUCTURED: f64 = 6.0;
+
+/// Structure, as a share of the noise variance, below which it is no concern: a tenth of the
+/// noise in rms is 0.01.
+const NEGLIGIBLE: f64 = 0.02;
+
+/// Share of the baseline's structure that may be left by a cause whose law is only nearly right.
+const LEFT: f64 = 0.10;
+
+/// The verdict, from what baseline and extended model leave.
+pub fn verdict(
+    named: bool,
+    before: &Structure,
+    after: &Structure,
+    repeated: bool,
+    chi: f64,
+) -> Verdict {
+    let left = after.significance > STRUCTURED && after.share > NEGLIGIBLE;
+    // Where cycles repeat, the noise is known on its own and the sum of squares tells too.
+    let over = repeated && chi > 1.5;
+    match (named, left || over) {
+        (false, false) => Verdict::Clean,
+        (false, true) => Verdict::Unexplained,
+        (true, false) => Verdict::Explained,
+        (true, true) if after.share <= LEFT * before.share && !over => Verdict::Explained,
+        (true, true) => Verdict::PartlyExplained,
+    }
+}

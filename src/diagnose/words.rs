@@ -1,0 +1,125 @@
+//! What a diagnosis says in words.
+
+use super::findings::{Estimate, Findings, Verdict};
+use super::prepare::{Bench, compliance_ratio};
+use super::structure::Structure;
+use crate::joint::Joint;
+use crate::record::Record;
+
+/// The verdict in a sentence or two.
+pub fn summary(findings: &Findings) -> String {
+    let names: Vec<String> = findings
+        .causes
+        .iter()
+        .map(|c| {
+            if c.ambiguous_with.is_empty() {
+                c.name.clone()
+            } else {
+                format!("{} (or {})", c.name, c.ambiguous_with.join(" or "))
+            }
+        })
+        .collect();
+    let names = names.join(" and ");
+    let (ratio, _) = findings.gain;
+    match findings.verdict {
+        Verdict::Clean => "The baseline joint explains the records to the noise; no cause is called for.".to_string(),
+        Verdict::Explained => format!(
+            "{names} explains what the baseline gets wrong: the held-out error falls to {ratio:.2} of the baseline's and only noise is left."
+        ),
+        Verdict::PartlyExplained => format!(
+            "{names} takes the held-out error to {ratio:.2} of the baseline's; structure beyond the noise remains ({:.0} % of it).",
+            100.0 * findings.unexplained.share
+        ),
+        Verdict::Unexplained => "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it.".to_string(),
+    }
+}
+
+/// Where structure is left, the strongest bins first.
+pub fn places(bench: &Bench, structure: &Structure) -> Vec<String> {
+    structure
+        .places
+        .iter()
+        .filter(|p| p.share > 0.01)
+        .map(|p| {
+            let record = &bench.whole.records[p.record];
+            let (from, to) = (
+                record.time[p.from],
+                record.time[p.to.min(record.time.len() - 1)],
+            );
+            format!(
+                "record {}, {from:.4} to {to:.4} s: {:.0} % of the structure",
+                record.name,
+                100.0 * p.share
+            )
+        })
+        .collect()
+}
+
+/// What these records cannot show.
+pub fn not_identifiable(records: &[Record]) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let deepest = records.iter().map(compliance_ratio).fold(1.0_f64, f64::max);
+    if deepest < 4.0 {
+        sentences.push(format!(
+            "Full slip was not approached (largest over smallest secant compliance {deepest:.1}): the slip force F_S and the ratio beta are not bounded from above by these records."
+        ));
+    }
+    sentences.push(
+        "The split of the small-amplitude compliance into 1/K_1 and 1/K_T: only the stiffness of both in series is seen in force and displacement of the joint.".to_string(),
+    );
+    if records.iter().any(|r| r.time.is_none()) {
+        sentences.push(
+            "A record has no time: every cause that depends on rate or time was left out."
+                .to_string(),
+        );
+    }
+    sentences
+}
+
+/// Sizes of the identified joint that the records do tell.
+pub fn joint_parameters(joint: &Joint) -> Vec<Estimate> {
+    let plain = |name: &str, value: f64, unit: &str| Estimate {
+        name: name.to_string(),
+        value,
+        unit: unit.to_string(),
+        interval: None,
+    };
+    vec![plain("initial_stiffness", joint.initial_stiffness(), "N/m")]
+}
+
+/// Assumptions made on the way.
+pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !bench.noise_is_repeated() {
+        notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
+    }
+    for record in records {
+        let largest = record.force.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        if record
+            .force
+            .first()
+            .is_some_and(|f| f.abs() > 0.05 * largest)
+        {
+            notes.push(format!(
+                "Record {} does not start at rest: its first cycle holds the memory of loads before it.",
+                record.name
+            ));
+        }
+    }
+    notes
+}
+
+/// What would settle an ambiguity.
+pub fn next_experiment(findings: &Findings) -> Option<String> {
+    let unclear = findings
+        .causes
+        .iter()
+        .find(|c| !c.ambiguous_with.is_empty())?;
+    let page = crate::causes::find(&unclear.name)?.page();
+    Some(format!(
+        "To tell {} from {}: {}",
+        unclear.name,
+        unclear.ambiguous_with.join(" and "),
+        page.separated_by
+    ))
+}

@@ -1,0 +1,240 @@
+//! Steps: sizes, times, refusals, input derivatives.
+
+use super::host::*;
+use iwan::fmu::*;
+use iwan::joint::{Drive, Simulation};
+
+#[test]
+fn the_answer_is_the_simulations_to_the_last_bit() {
+    for json in [BOLT, BOLT_WITH_CAUSES] {
+        let resources = Resources::new(json);
+        for (drive, input, scale) in [
+            (Drive::Force, FORCE, 1.0),
+            (Drive::Displacement, DISPLACEMENT, 1e-7),
+        ] {
+            let unit = Unit::stepping(&resources, drive);
+            let mut simulation = Simulation::new(&resources.joint(), drive).unwrap();
+            simulation.step(0.0, 0.0).unwrap();
+            let mut before = 0.0;
+            for (t, force) in history().skip(1) {
+                unit.ok(unit.set(input, scale * force));
+                unit.ok(unit.step(before, t - before));
+                let expected = simulation
+                    .step(before + (t - before), scale * force)
+                    .unwrap();
+                let references = [
+                    FORCE,
+                    DISPLACEMENT,
+                    DISSIPATION,
+                    DISSIPATION_RATE,
+                    STORED_ENERGY,
+                    5,
+                    6,
+                ];
+                let expected = [
+                    expected.force,
+                    expected.displacement,
+                    expected.dissipation,
+                    expected.dissipation_rate,
+                    expected.stored_energy,
+                    expected.slip_displacement,
+                    expected.tangent_stiffness,
+                ];
+                assert_eq!(unit.get(&references), expected, "{drive:?} at {t}");
+                before = t;
+            }
+        }
+    }
+}
+
+#[test]
+fn impossible_steps_are_refused_and_tiny_ones_are_fine() {
+    let resources = Resources::new(BOLT_WITH_CAUSES);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    let answer = unit.drive(FORCE, 200.0, 0.0, 0.01);
+    for size in [f64::NAN, f64::INFINITY, -1e-3, -1e-17, f64::NEG_INFINITY] {
+        assert!(
+            unit.error(unit.step(0.01, size))
+                .contains("communicationStepSize")
+        );
+    }
+    for point in [f64::NAN, f64::INFINITY, 0.0, 0.011, -0.01] {
+        assert!(
+            unit.error(unit.step(point, 0.01))
+                .contains("currentCommunicationPoint")
+        );
+    }
+    assert_eq!(unit.get(&ANSWERS), answer);
+    for size in [0.0, 1e-17, 1.4e-17, 0.0] {
+        unit.ok(unit.step(0.01, size));
+        // A step of some units in the last place of the time is a step: rounding may differ.
+        for (found, before) in unit.get(&ANSWERS)[..2].iter().zip(&answer) {
+            assert!(
+                (found - before).abs() <= 1e-12 * before.abs(),
+                "{size}: {found} {before}"
+            );
+        }
+    }
+    // Importers that sum their steps come back 1e-9 late or early.
+    unit.ok(unit.step(0.01 + 1e-9, 0.01));
+    unit.ok(unit.step(0.02 - 1e-9, 0.01));
+    unit.ok(unit.step(0.03 - 1e-9, 1e-17));
+}
+
+#[test]
+fn a_step_refused_by_the_physics_leaves_everything_as_before() {
+    let resources = Resources::new(BOLT);
+    let troubled = Unit::stepping(&resources, Drive::Force);
+    let calm = Unit::stepping(&resources, Drive::Force);
+    let mut before = 0.0;
+    for (t, force) in history().skip(1).take(100) {
+        troubled.ok(troubled.set(FORCE, 1500.0));
+        let told = troubled.error(troubled.step(before, t - before));
+        assert!(told.contains("full slip"), "{told}");
+        let size = t - before;
+        let answers = troubled.drive(FORCE, force, before, size);
+        assert_eq!(answers, calm.drive(FORCE, force, before, size));
+        before = t;
+    }
+}
+
+/// With a turning value inside the step that is refused: the part before it must not stay.
+#[test]
+fn a_step_refused_after_a_turn_leaves_everything_as_before() {
+    let resources = Resources::new(BOLT);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    let before = unit.drive(FORCE, 500.0, 0.0, 0.1);
+    // 500 N, down to 400 N after 0.1 s, up beyond full slip: 500 − 2000 t + 10000 t² at 0.5 s.
+    let (references, orders, values) = ([FORCE; 2], [1, 2], [-2000.0, 20000.0]);
+    let status = unsafe {
+        let (r, o, v) = (references.as_ptr(), orders.as_ptr(), values.as_ptr());
+        fmi2SetRealInputDerivatives(unit.handle, r, 2, o, v)
+    };
+    unit.ok(status);
+    let state = unit.save();
+    assert!(unit.error(unit.step(0.1, 0.5)).contains("full slip"));
+    assert_eq!(unit.get(&ANSWERS), before);
+    let after = unit.save();
+    assert_eq!(unit.serialize(state), unit.serialize(after));
+    unit.free_state(state);
+    unit.free_state(after);
+}
+
+#[test]
+fn times_of_the_experiment() {
+    let resources = Resources::new(BOLT);
+    let setup = |unit: &Unit, start: f64, stop: f64| unsafe {
+        fmi2SetupExperiment(unit.handle, TRUE, 1e-6, start, TRUE, stop)
+    };
+    let unit = Unit::instantiated(&resources, Drive::Force);
+    for (start, stop) in [
+        (0.0, -1.0),
+        (f64::NAN, 1.0),
+        (0.0, f64::NAN),
+        (f64::INFINITY, 1.0),
+    ] {
+        assert!(
+            unit.error(setup(&unit, start, stop))
+                .contains("expected finite times")
+        );
+    }
+    unit.ok(setup(&unit, 10.0, 11.0));
+    unit.ok(unsafe { fmi2EnterInitializationMode(unit.handle) });
+    unit.ok(unsafe { fmi2ExitInitializationMode(unit.handle) });
+    unit.ok(unit.step(10.0, 0.9));
+    assert!(unit.error(unit.step(10.9, 0.2)).contains("stop time 11 s"));
+    unit.ok(unit.step(10.9, 0.1 + 1e-12));
+}
+
+/// With derivatives the input goes on as their polynomial: one step over a cubic gives what the
+/// simulation gives when it is led to each turning value and to the end.
+#[test]
+fn input_derivatives_find_the_turning_values_inside_a_step() {
+    let resources = Resources::new(BOLT);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    // F = 600 · (t − 0.2)(t − 0.6) t · 10 has its turns where 3t² − 1.6t + 0.12 = 0.
+    let cubic = |t: f64| 6000.0 * t * (t - 0.2) * (t - 0.6);
+    let (references, orders) = ([FORCE; 3], [1, 2, 3]);
+    let values = [6000.0 * 0.12, 6000.0 * 2.0 * -0.8, 6000.0 * 6.0];
+    let status = unsafe {
+        let (r, o, v) = (references.as_ptr(), orders.as_ptr(), values.as_ptr());
+        fmi2SetRealInputDerivatives(unit.handle, r, 3, o, v)
+    };
+    unit.ok(status);
+    unit.ok(unit.step(0.0, 0.7));
+    let root = (1.6_f64 * 1.6 - 4.0 * 3.0 * 0.12).sqrt();
+    let mut simulation = Simulation::new(&resources.joint(), Drive::Force).unwrap();
+    for t in [0.0, (1.6 - root) / 6.0, (1.6 + root) / 6.0, 0.7] {
+        simulation.step(t, cubic(t)).unwrap();
+    }
+    let expected = simulation.output();
+    let found = unit.get(&[DISPLACEMENT, DISSIPATION]);
+    // Rounding of the polynomial, some 1e-13 N in 400 N, at twice the compliance of the start.
+    let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-12 * expected.abs();
+    assert!(
+        close(found[0], expected.displacement),
+        "{found:?} {expected:?}"
+    );
+    assert!(
+        close(found[1], expected.dissipation),
+        "{found:?} {expected:?}"
+    );
+    assert!(found[1] > 0.0);
+    let rate = unit.get(&[DISSIPATION_RATE])[0];
+    assert!(close(rate, found[1] / 0.7));
+    // Afterwards they are forgotten: the input as set, zero, holds.
+    unit.ok(unit.step(0.7, 0.1));
+    let expected = simulation.step(0.8, 0.0).unwrap();
+    assert!(close(unit.get(&[DISPLACEMENT])[0], expected.displacement));
+}
+
+#[test]
+fn wrong_derivatives_are_refused() {
+    let resources = Resources::new(BOLT);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    let set = |reference: u32, order: i32, value: f64| unsafe {
+        fmi2SetRealInputDerivatives(unit.handle, &reference, 1, &order, &value)
+    };
+    for order in [0, 4, -1, i32::MIN, i32::MAX] {
+        assert!(
+            unit.error(set(FORCE, order, 1.0))
+                .contains("order from 1 to 3")
+        );
+    }
+    assert!(
+        unit.error(set(DISPLACEMENT, 1, 1.0))
+            .contains("reference of the input")
+    );
+    assert!(unit.error(set(99, 1, 1.0)).contains("came 99"));
+    assert!(
+        unit.error(set(FORCE, 1, f64::NAN))
+            .contains("derivative 1 of force")
+    );
+}
+
+#[test]
+fn reset_starts_anew_from_any_mode() {
+    let resources = Resources::new(BOLT_WITH_CAUSES);
+    let run = |unit: &Unit| -> Vec<Vec<f64>> {
+        let mut before = 0.0;
+        let rows = history().skip(1).map(|(t, force)| {
+            let answers = unit.drive(FORCE, force, before, t - before);
+            before = t;
+            answers
+        });
+        rows.collect()
+    };
+    let unit = Unit::instantiated(&resources, Drive::Force);
+    unit.ok(unit.set(SLIP_FORCE, 5000.0));
+    unit.ok(unsafe { fmi2Reset(unit.handle) });
+    let start = |unit: &Unit| {
+        unit.ok(unsafe { fmi2EnterInitializationMode(unit.handle) });
+        assert_eq!(unit.get(&[SLIP_FORCE]), [1000.0]);
+        unit.ok(unsafe { fmi2ExitInitializationMode(unit.handle) });
+    };
+    start(&unit);
+    let first = run(&unit);
+    unit.ok(unsafe { fmi2Reset(unit.handle) });
+    start(&unit);
+    assert_eq!(run(&unit), first);
+}

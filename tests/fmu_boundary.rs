@@ -1,0 +1,17 @@
+//! The C boundary of the FMU, called as an importer calls it.
+
+#[path = "fmu/host.rs"]
+mod host;
+
+#[path = "fmu/call_order.rs"]
+mod call_order;
+#[path = "fmu/instances.rs"]
+mod instances;
+#[path = "fmu/messages.rs"]
+mod messages;
+#[path = "fmu/states.rs"]
+mod states;
+#[path = "fmu/steps.rs"]
+mod steps;
+#[path = "fmu/values.rs"]
+mod values;

@@ -1,0 +1,173 @@
+"""The remaining effects of the measuring chain in the finder's catalogue."""
+
+import numpy as np
+from scipy.signal import lfilter
+
+from .effects_catalogue import Scaled
+from .rig import Infeasible
+
+
+class Instrument(Scaled):
+    """An effect of the displacement channel alone."""
+
+    kind = "measurement"
+    acts = frozenset({"read_displacement"})
+
+
+class FixtureInertia(Scaled):
+    """Mass between load cell and specimen: the cell reads its inertia as well."""
+
+    name = "fixture_inertia"
+    kind = "measurement"
+    acts = frozenset({"read_force"})
+
+    def draw(self, scene, rng):
+        fastest = (2 * np.pi * scene.fastest) ** 2 * scene.largest("displacement")
+        self.most = 0.5 * scene.largest("force") / fastest
+
+    def read_force(self, trace):
+        velocity = np.gradient(trace.displacement, trace.time)
+        return trace.force + self.strength * self.most * np.gradient(velocity, trace.time)
+
+    def describe(self):
+        return {"mass_kg": self.strength * self.most}
+
+
+class SensorDelay(Instrument):
+    """The displacement channel comes late."""
+
+    name = "sensor_delay"
+
+    def draw(self, scene, rng):
+        self.most = 0.1 / scene.fastest
+
+    def read_displacement(self, trace):
+        late = trace.time - self.strength * self.most
+        return np.interp(late, trace.time, trace.displacement)
+
+    def describe(self):
+        return {"delay_s": self.strength * self.most}
+
+
+class OffsetStep(Instrument):
+    """The sensor slips on its mount: a lasting jump, over a few milliseconds or at once."""
+
+    name = "offset_step"
+
+    def draw(self, scene, rng):
+        self.file = int(rng.integers(len(scene.histories)))
+        length = float(scene.histories[self.file].time[-1])
+        self.duration = length
+        self.when = length * rng.uniform(0.2, 0.8)
+        self.rise = length * 10 ** rng.uniform(-5.0, -3.0)
+        self.most = 0.5 * scene.largest("displacement") * rng.choice([-1.0, 1.0])
+
+    def read_displacement(self, trace):
+        if trace.time[-1] != self.duration:  # happens in one of the files only
+            return trace.displacement
+        x = np.clip((trace.time - self.when) / self.rise, -40.0, 40.0)
+        return trace.displacement + self.strength * self.most / (1.0 + np.exp(-x))
+
+    def describe(self):
+        return {
+            "step_m": self.strength * self.most,
+            "at_s": self.when,
+            "file": self.file + 1,
+        }
+
+
+class MainsHum(Instrument):
+    """Mains frequency and a little of its third harmonic."""
+
+    name = "mains_hum"
+
+    def draw(self, scene, rng):
+        self.frequency = float(rng.choice([50.0, 60.0])) * (1.0 + 1e-3 * rng.uniform(-1.0, 1.0))
+        rates = [1.0 / (h.fine * (h.time[1] - h.time[0])) for h in scene.histories]
+        if min(rates) < 2.5 * self.frequency:
+            raise Infeasible("sampled too slowly for mains hum")
+        self.phase = rng.uniform(0.0, 2 * np.pi, 2)
+        self.third = rng.uniform(0.0, 0.3) if min(rates) > 8.0 * self.frequency else 0.0
+        self.most = 0.3 * scene.largest("displacement")
+
+    def read_displacement(self, trace):
+        angle = 2 * np.pi * self.frequency * trace.time
+        hum = np.sin(angle + self.phase[0]) + self.third * np.sin(3 * angle + self.phase[1])
+        return trace.displacement + self.strength * self.most * hum
+
+    def describe(self):
+        return {"amplitude_m": self.strength * self.most, "frequency_Hz": self.frequency}
+
+
+class AcCoupling(Instrument):
+    """A high-pass in the displacement amplifier, of first or second order."""
+
+    name = "ac_coupling"
+
+    def draw(self, scene, rng):
+        self.order = int(rng.choice([1, 2], p=[0.7, 0.3]))
+        self.most = 0.5 * scene.slowest
+
+    def read_displacement(self, trace):
+        dt = trace.time[1] - trace.time[0]
+        half = np.pi * self.strength * self.most * dt  # bilinear transform
+        b = np.array([1.0, -1.0]) / (1.0 + half)
+        a = np.array([1.0, -(1.0 - half) / (1.0 + half)])
+        out = trace.displacement
+        for _ in range(self.order):
+            out = lfilter(b, a, out)
+        return out
+
+    def describe(self):
+        return {"corner_Hz": self.strength * self.most, "order": self.order}
+
+
+class SensorSaturation(Instrument):
+    """The sensor bends over towards the end of its range."""
+
+    name = "sensor_saturation"
+
+    def draw(self, scene, rng):
+        self.knee = float(rng.uniform(8.0, 30.0))
+        self.peak = scene.largest("displacement")
+
+    def read_displacement(self, trace):
+        x = trace.displacement
+        relative = np.abs(x) * (2.0 * self.strength / self.peak)
+        return x / (1.0 + relative**self.knee) ** (1.0 / self.knee)
+
+    def describe(self):
+        return {"range_m": 0.5 * self.peak / max(self.strength, 1e-9), "knee": self.knee}
+
+
+class SensorNonlinearity(Instrument):
+    """The sensor's scale bends along its range, alike or unlike on the two sides."""
+
+    name = "sensor_nonlinearity"
+
+    def draw(self, scene, rng):
+        self.peak = scene.largest("displacement")
+        self.even = float(rng.uniform(-1.0, 1.0))
+        self.odd = float(rng.uniform(-1.0, 1.0))
+
+    def read_displacement(self, trace):
+        x = trace.displacement / self.peak
+        bend = self.even * (1.0 - np.cos(1.5 * x)) + self.odd * (np.sin(1.5 * x) - 1.5 * x)
+        return trace.displacement + 0.4 * self.strength * self.peak * bend
+
+    def describe(self):
+        return {
+            "even_share": 0.4 * self.strength * self.even,
+            "odd_share": 0.4 * self.strength * self.odd,
+        }
+
+
+MORE = [
+    FixtureInertia,
+    SensorDelay,
+    OffsetStep,
+    MainsHum,
+    AcCoupling,
+    SensorSaturation,
+    SensorNonlinearity,
+]

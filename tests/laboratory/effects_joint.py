@@ -1,0 +1,283 @@
+"""The remaining joint effects of the finder's catalogue, again in laws of the laboratory's own."""
+
+import numpy as np
+
+from .effects_catalogue import Scaled, softplus
+
+
+class QuadraticDamping(Scaled):
+    """Turbulent drag across the joint."""
+
+    name = "quadratic_damping"
+    acts = frozenset({"damper"})
+
+    def draw(self, scene, rng):
+        velocity = 2 * np.pi * scene.fastest * scene.largest("displacement")
+        self.most = 0.5 * scene.largest("force") / velocity**2
+
+    def damper(self, velocity):
+        c = self.strength * self.most
+        return c * velocity * abs(velocity), 2.0 * c * abs(velocity)
+
+    def describe(self):
+        return {"coefficient_Ns2_per_m2": self.strength * self.most}
+
+
+class SlackGrowth(Scaled):
+    """Bearing damage: the hole elongates with the highest load yet, and the play with it."""
+
+    name = "slack_growth"
+    acts = frozenset({"series", "after"})
+
+    def draw(self, scene, rng):
+        self.most = scene.largest("displacement")
+        self.top = scene.largest("force")
+        self.begins = self.top * rng.uniform(0.1, 0.4)
+        self.power = float(rng.uniform(1.0, 2.0))
+        self.seat = self.top * 10 ** rng.uniform(-2.3, -1.5)
+
+    def reset(self):
+        self.largest, self.half = 0.0, 0.0
+
+    def after(self, now):
+        if abs(now.network) > self.largest:
+            self.largest = abs(now.network)
+            beyond = max(self.largest - self.begins, 0.0) / (self.top - self.begins)
+            self.half = 0.5 * self.strength * self.most * beyond**self.power
+
+    def series(self, force):
+        y = np.tanh(force / self.seat)
+        return self.half * y, self.half / self.seat * (1.0 - y * y)
+
+    def describe(self):
+        return {
+            "gap_at_peak_m": self.strength * self.most,
+            "begins_at_N": self.begins,
+            "power": self.power,
+            "seating_force_N": self.seat,
+        }
+
+
+class CubicStiffness(Scaled):
+    """The series spring hardens or softens, by inverse or direct hyperbolic sine."""
+
+    name = "cubic_stiffness"
+    acts = frozenset({"series"})
+
+    def draw(self, scene, rng):
+        self.hardens = bool(rng.random() < 0.6)
+        self.top = scene.largest("force")
+        self.soft = 1.0 / scene.joint.series
+
+    def series(self, force):
+        b = 2.5 * self.strength
+        if b == 0.0:
+            return 0.0, 0.0
+        x = force / self.top
+        if self.hardens:
+            law, slope = np.arcsinh(b * x) / b, 1.0 / np.sqrt(1.0 + (b * x) ** 2)
+        else:
+            x = min(max(x, -3.0), 3.0)
+            law, slope = np.sinh(b * x) / b, np.cosh(b * x)
+        return self.soft * self.top * (law - x), self.soft * (slope - 1.0)
+
+    def describe(self):
+        return {"hardens": self.hardens, "curvature": 2.5 * self.strength}
+
+
+class JointOpening(Scaled):
+    """The seat gives more in tension than in compression."""
+
+    name = "joint_opening"
+    acts = frozenset({"series"})
+
+    def draw(self, scene, rng):
+        self.side = float(rng.choice([-1.0, 1.0]))
+        self.round = scene.largest("force") * rng.uniform(0.01, 0.08)
+        self.most = scene.largest("displacement") / scene.largest("force")
+
+    def series(self, force):
+        give = self.strength * self.most
+        y, slope = softplus(self.side * force / self.round)
+        return self.side * give * self.round * (y - np.log(2.0)), give * slope
+
+    def describe(self):
+        return {
+            "opens": "positive" if self.side > 0 else "negative",
+            "compliance_added_m_per_N": self.strength * self.most,
+            "rounding_N": self.round,
+        }
+
+
+class NormalLoadVariation(Scaled):
+    """Break-free forces follow the load or the displacement, exponentially."""
+
+    name = "normal_load_variation"
+    acts = frozenset({"limits", "after"})
+
+    def draw(self, scene, rng):
+        self.follows = str(rng.choice(["force", "displacement"]))
+        self.sign = float(rng.choice([-1.0, 1.0]))
+        self.top = scene.largest(self.follows)
+
+    def reset(self):
+        self.seen = 0.0
+
+    def limits(self, base):
+        high = np.exp(self.sign * self.strength * self.seen) * base
+        return -high, high
+
+    def after(self, now):
+        self.seen = (now.network if self.follows == "force" else now.displacement) / self.top
+        self.seen = min(max(self.seen, -2.0), 2.0)
+
+    def describe(self):
+        return {"follows": self.follows, "log_change_at_peak": self.sign * self.strength}
+
+
+class RunningIn(Scaled):
+    """Friction settles over the first cycles: up as asperities bed in, sometimes down."""
+
+    name = "running_in"
+    acts = frozenset({"limits", "after"})
+
+    def draw(self, scene, rng):
+        self.sign = -1.0 if rng.random() < 0.7 else 1.0  # below or above the settled value
+        self.length = scene.largest("slip") * rng.uniform(2.0, 10.0)
+
+    def reset(self):
+        self.path = 0.0
+
+    def limits(self, base):
+        left = 1.0 / (1.0 + (self.path / self.length) ** 1.5)
+        high = (1.0 + self.sign * 0.5 * self.strength * left) * base
+        return -high, high
+
+    def after(self, now):
+        self.path += abs(now.moved)
+
+    def describe(self):
+        return {"initial_change": self.sign * 0.5 * self.strength, "length_m": self.length}
+
+
+class _RateState(Scaled):
+    """Friction that follows the slip rate, felt over a short memory."""
+
+    acts = frozenset({"limits", "after"})
+
+    def draw(self, scene, rng):
+        typical = max(
+            float(np.sqrt(np.mean(np.gradient(t.slip, t.time) ** 2))) for t in scene.clean
+        )
+        self.reference = typical * 10 ** rng.uniform(-2.0, -0.7)
+        self.memory = 0.015 / scene.fastest
+
+    def reset(self):
+        self.rate = 0.0
+
+    def after(self, now):
+        keep = np.exp(-now.dt / self.memory)
+        self.rate = keep * self.rate + (1.0 - keep) * abs(now.moved) / now.dt
+
+    def limits(self, base):
+        high = self.factor(self.rate / self.reference) * base
+        return -high, high
+
+
+class RateDependentFriction(_RateState):
+    """Friction grows with the logarithm of the slip rate."""
+
+    name = "rate_dependent_friction"
+
+    def factor(self, x):
+        """Break-free factor at a relative rate."""
+        return 1.0 + 0.1 * self.strength * np.arcsinh(x)
+
+    def describe(self):
+        return {"per_e_fold": 0.1 * self.strength, "reference_rate_m_per_s": self.reference}
+
+
+class VelocityWeakening(_RateState):
+    """Friction falls from its value at rest to a lower one at speed."""
+
+    name = "velocity_weakening"
+
+    def factor(self, x):
+        """Break-free factor at a relative rate."""
+        return 1.0 - 0.4 * self.strength * x / (1.0 + x)
+
+    def describe(self):
+        return {"final_fall": 0.4 * self.strength, "reference_rate_m_per_s": self.reference}
+
+
+class StaticFrictionDrop(Scaled):
+    """Every element breaks away above the force at which it then slides, and sticks anew."""
+
+    name = "static_friction_drop"
+    acts = frozenset({"limits", "after"})
+
+    def draw(self, scene, rng):
+        self.sliding = np.zeros(len(scene.joint.limits), dtype=bool)
+
+    def reset(self):
+        self.sliding[:] = False
+
+    def limits(self, base):
+        high = np.where(self.sliding, base, (1.0 + self.strength) * base)
+        return -high, high
+
+    def after(self, now):
+        np.logical_not(now.stuck, out=self.sliding)
+
+    def describe(self):
+        return {"breakaway_over_kinetic": 1.0 + self.strength}
+
+
+class Creep(Scaled):
+    """Something in the load path yields with time: Kelvin elements over two decades."""
+
+    name = "creep"
+    acts = frozenset({"series", "after"})
+
+    def draw(self, scene, rng):
+        slow = 10 ** rng.uniform(-0.5, 0.8) / (2 * np.pi * scene.slowest)
+        self.times = slow * np.array([0.1, 1.0, 10.0])
+        self.shares = rng.dirichlet([1.0, 2.0, 1.0])
+        self.most = scene.largest("displacement") / scene.largest("force")
+
+    def reset(self):
+        self.crept = np.zeros(3)
+
+    def _weights(self):
+        return self.dt / (self.times + self.dt)
+
+    def series(self, force):
+        w = self._weights()
+        give = self.strength * self.most * self.shares
+        now = (1.0 - w) * self.crept + w * give * force
+        return float(now.sum()), float((w * give).sum())
+
+    def after(self, now):
+        w = self._weights()
+        give = self.strength * self.most * self.shares
+        self.crept = (1.0 - w) * self.crept + w * give * now.network
+
+    def describe(self):
+        return {
+            "compliances_m_per_N": [float(x) for x in self.strength * self.most * self.shares],
+            "times_s": [float(x) for x in self.times],
+        }
+
+
+MORE = [
+    QuadraticDamping,
+    SlackGrowth,
+    CubicStiffness,
+    JointOpening,
+    NormalLoadVariation,
+    RunningIn,
+    RateDependentFriction,
+    VelocityWeakening,
+    StaticFrictionDrop,
+    Creep,
+]
