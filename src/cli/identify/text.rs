@@ -53,7 +53,7 @@ pub fn report(found: &Found) -> String {
         row(
             &mut out,
             "descent",
-            &format!("{ended} after {} iterations", fit.iterations),
+            &format!("{ended}, {} iterations", fit.iterations),
         );
         section(&mut out, &format!("Joint: {}", fit.joint.density.family()));
         for estimate in &fit.estimates {
@@ -101,7 +101,12 @@ fn procedure(out: &mut String, seed: &Seed) {
             law.range.0,
             law.range.1
         );
-        row(out, "constant slope over", &range);
+        let label = if law.constant {
+            "constant slope over"
+        } else {
+            "no constant slope; line over"
+        };
+        row(out, label, &range);
         estimated(out, &law.exponent);
         estimated(out, &law.coefficient);
     }

@@ -12,7 +12,7 @@ pub struct Best {
     pub shape: Shape,
     /// Residuals of the records there.
     pub residual: Vec<f64>,
-    /// Iterations of the last descent.
+    /// Iterations of all descents on the way.
     pub iterations: usize,
     /// False where the iterations ran out.
     pub converged: bool,
@@ -64,7 +64,8 @@ pub fn global(target: &Target, starts: &[Shape]) -> Option<Best> {
         .iter()
         .filter_map(|start| descend(target, start, &Pull::none(), FIRST, 1.0))
         .min_by(|a, b| a.misfit().total_cmp(&b.misfit()))?;
-    let best = descend(target, &first.shape, &Pull::none(), LAST, 1.0)?;
+    let mut best = descend(target, &first.shape, &Pull::none(), LAST, 1.0)?;
+    best.iterations += first.iterations;
     Some(polished(target, best, &Pull::none()))
 }
 
@@ -118,10 +119,11 @@ impl Pull {
 
 fn polished(target: &Target, mut best: Best, pull: &Pull) -> Best {
     for widened in WIDENED {
-        if let Some(next) = descend(target, &best.shape, pull, LAST, widened)
-            && next.misfit() < best.misfit()
-        {
-            best = next;
+        if let Some(mut next) = descend(target, &best.shape, pull, LAST, widened) {
+            next.iterations += best.iterations;
+            if next.misfit() < best.misfit() {
+                best = next;
+            }
         }
     }
     best

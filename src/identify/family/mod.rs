@@ -7,19 +7,20 @@ mod levenberg;
 mod shape;
 mod start;
 mod target;
+mod told;
 mod uncertainty;
 
 pub use branches::Branches;
 pub use levenberg::{Free, Minimum, minimise};
 pub use shape::{Shape, Size};
 
-use super::interval::{Estimated, NORMAL_95};
+use super::interval::Estimated;
 use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
 use descent::Best;
-use shape::{LAST_SHARE, NETWORK_SHARE};
 use target::Target;
+use told::Told;
 use uncertainty::Uncertainty;
 
 /// Why no family could be fitted.
@@ -135,21 +136,14 @@ fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, Family
     let starts = start::starts(target, initial);
     let best = descent::global(target, &starts).ok_or(FamilyError::NoJoint)?;
     let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
-    let told = |known: &Uncertainty| {
-        (
-            known.knows_share(NETWORK_SHARE),
-            known.knows_share(LAST_SHARE),
-        )
-    };
-    if told(&known) == (true, true) {
-        return concluded(target, best, known, true, true);
+    if Told::of(target, &best.shape, &known).everything() {
+        return concluded(target, best, known);
     }
     // What the data leave open is drawn softly to the middle of its range, so that it neither
     // wanders nor drags the others along; β, where nothing at all depends on it, is zero.
     let best = descent::settled(target, &best, &known);
     let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
-    let (split_told, slip_told) = told(&known);
-    concluded(target, best, known, split_told, slip_told)
+    concluded(target, best, known)
 }
 
 /// The joint of load levels alone (an amplitude table): the power law (ϑ, χ), all compliance in the
@@ -185,31 +179,24 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
     Ok(joint(&shape, false)?)
 }
 
-fn concluded(
-    target: &Target,
-    best: Best,
-    known: Uncertainty,
-    split_told: bool,
-    slip_told: bool,
-) -> Result<FamilyFit, FamilyError> {
+fn concluded(target: &Target, best: Best, known: Uncertainty) -> Result<FamilyFit, FamilyError> {
+    let told = Told::of(target, &best.shape, &known);
     let shape = best.shape;
     let samples = best.residual.len();
     let relative_rms = best.rms();
-    let mut fit = FamilyFit {
+    Ok(FamilyFit {
         drive: target.drive(),
         shape,
-        joint: joint(&shape, slip_told)?,
-        estimates: known.estimates(&shape, split_told, slip_told),
+        joint: joint(&shape, told.slip_force)?,
+        estimates: known.estimates(&shape, told),
         rms: relative_rms * target.scale(),
         relative_rms,
         autoregression: target.autoregression(&best.residual),
         samples,
         iterations: best.iterations,
         converged: best.converged,
-        not_identifiable: Vec::new(),
-    };
-    fit.not_identifiable = not_identifiable(target, &fit, &known, split_told, slip_told);
-    Ok(fit)
+        not_identifiable: told.sentences(target, &shape, &known, relative_rms * target.scale()),
+    })
 }
 
 /// The joint of a shape. Below full slip the two families are one and the same curve; the power law
@@ -228,49 +215,4 @@ fn joint(shape: &Shape, slip_told: bool) -> Result<Joint, JointError> {
         series_stiffness: shape.spring(),
         effects: Vec::new(),
     })
-}
-
-fn not_identifiable(
-    target: &Target,
-    fit: &FamilyFit,
-    known: &Uncertainty,
-    split_told: bool,
-    slip_told: bool,
-) -> Vec<String> {
-    let mut said = Vec::new();
-    let (channel, unit) = match target.drive() {
-        Drive::Force => ("displacement", "m"),
-        Drive::Displacement => ("force", "N"),
-    };
-    let effect = |number: usize| known.sensitivity(number) * target.scale();
-    if !slip_told {
-        said.push(format!(
-            "F_S and β: these loads do not reach the sliders that slip last. Moving F_S and β \
-             together by the whole range of β changes the {channel} by {:.1e} {unit} \
-             rms against {:.1e} {unit} of misfit; the joint written takes β = {:.2} and extends \
-             the power law.",
-            effect(LAST_SHARE),
-            fit.rms,
-            fit.shape.ratio()
-        ));
-    }
-    if !split_told {
-        said.push(format!(
-            "K_1 and K_T: only K_1 K_T/(K_1+K_T) = {:.5e} N/m is told, K_T is at least that. The \
-             share of the network in the compliance is known to ± {:.2} of 1, against ± 0.57 \
-             without any data; the joint written has K_T = {:.3e} N/m.",
-            fit.shape.series_stiffness,
-            NORMAL_95 * known.deviation(NETWORK_SHARE),
-            fit.shape.network_stiffness()
-        ));
-    }
-    let loose = known.deviation(2) > 0.25;
-    if loose {
-        said.push(format!(
-            "χ: its standard deviation is {:.2}; the loads span too little, or the noise covers \
-             the bend of the curve.",
-            known.deviation(2)
-        ));
-    }
-    said
 }

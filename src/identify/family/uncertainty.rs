@@ -1,6 +1,7 @@
 //! What the fit knows of each number, and of what follows from them.
 
 use super::shape::{LAST_SHARE, NETWORK_SHARE, NUMBERS, Shape};
+use super::told::Told;
 use crate::identify::interval::{Boundary, Estimated, NORMAL_95};
 use nalgebra::DMatrix;
 
@@ -65,7 +66,7 @@ impl Uncertainty {
     }
 
     /// Standard deviation of a function of the numbers, to first order.
-    fn of(&self, shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> f64 {
+    pub fn of(&self, shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> f64 {
         let at = shape.numbers();
         let gradient: Vec<f64> = (0..NUMBERS)
             .map(|j| {
@@ -92,7 +93,7 @@ impl Uncertainty {
     }
 
     /// The joint's numbers with their intervals; what was not told has none.
-    pub fn estimates(&self, shape: &Shape, split_told: bool, slip_told: bool) -> Vec<Estimated> {
+    pub fn estimates(&self, shape: &Shape, told: Told) -> Vec<Estimated> {
         let logarithmic = |name, symbol, unit: String, f: &dyn Fn(&Shape) -> f64, told: bool| {
             let value = f(shape);
             let half_width = if told && value.is_finite() {
@@ -120,7 +121,7 @@ impl Uncertainty {
             "K_1",
             stiffness_unit(),
             &Shape::spring,
-            split_told,
+            told.split,
         );
         if shape.network_share >= 1.0 {
             spring.at_boundary = Some(Boundary::Upper);
@@ -131,7 +132,7 @@ impl Uncertainty {
             "β",
             "1",
             shape.ratio(),
-            if slip_told {
+            if told.ratio {
                 NORMAL_95 * self.of(shape, &Shape::ratio)
             } else {
                 f64::INFINITY
@@ -161,7 +162,7 @@ impl Uncertainty {
                 "K_T",
                 stiffness_unit(),
                 &Shape::network_stiffness,
-                split_told,
+                told.split,
             ),
             spring,
             logarithmic(
@@ -169,7 +170,7 @@ impl Uncertainty {
                 "F_S",
                 "N".into(),
                 &Shape::slip_force,
-                slip_told,
+                told.slip_force,
             ),
             ratio,
         ]

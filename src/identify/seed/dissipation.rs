@@ -38,6 +38,9 @@ pub struct DissipationLaw {
     pub used: (usize, usize),
     /// Slopes between neighbouring levels, over all levels.
     pub local_slopes: Vec<LocalSlope>,
+    /// False where no three levels share a slope: the law is then a line through all of them, and
+    /// nothing may be built on it.
+    pub constant: bool,
     /// True where one slope serves all levels.
     pub single: bool,
 }
@@ -90,11 +93,11 @@ pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
         drift(&x[from..to], &y[from..to], &weight[from..to]).abs()
             <= allowed + (2.0 * drift_error(&x[from..to], &error[from..to])).min(MOST_DRIFT)
     };
-    let (from, to) = (3..=count)
+    let range = (3..=count)
         .rev()
         .flat_map(|length| (0..=count - length).map(move |from| (from, from + length)))
-        .find(|&(from, to)| x[to - 1] - x[from] >= LEAST_SPAN.ln() && constant(from, to))
-        .unwrap_or((0, count));
+        .find(|&(from, to)| x[to - 1] - x[from] >= LEAST_SPAN.ln() && constant(from, to));
+    let (from, to) = range.unwrap_or((0, count));
     if count < 2 || x[to - 1] - x[from] < LEAST_SPAN.ln() {
         return None;
     }
@@ -107,6 +110,8 @@ pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
         range: (x[from].exp(), x[to - 1].exp()),
         used: (from, to),
         local_slopes,
+        // Two levels have one slope and no way to contradict it.
+        constant: range.is_some() || count == 2,
         single: count >= 3 && constant(0, count),
     })
 }

@@ -116,18 +116,17 @@ pub fn of_records(records: &[&Record]) -> Result<Seed, SeedError> {
     };
     seed.dissipation = dissipation_law(&seed.levels, Over::Force);
     seed.stiffness = stiffness_of(&seed);
-    if let Some(law) = &seed.dissipation {
+    let law = seed.dissipation.clone().filter(|law| law.constant);
+    if let Some(law) = &law {
         seed.residual_slip = residual_slip(&seed.levels, law);
     }
     seed.monotonic = monotonic(records, &points);
-    if seed.dissipation.is_none()
+    if law.is_none()
         && let Some(curve) = &seed.monotonic
     {
         seed.stiffness = Some(stiffness::of_curve(curve));
     }
-    if let (Some(curve), Some(law), Some(stiffness)) =
-        (&seed.monotonic, &seed.dissipation, &seed.stiffness)
-    {
+    if let (Some(curve), Some(law), Some(stiffness)) = (&seed.monotonic, &law, &seed.stiffness) {
         let join = law.range.1.min(0.5 * curve.force[curve.force.len() - 1]);
         seed.matching = curve.matching(
             law.coefficient.value,
@@ -172,8 +171,8 @@ fn concluded(mut seed: Seed) -> Seed {
 
 fn stiffness_of(seed: &Seed) -> Option<Stiffness> {
     let (exponent, used) = match &seed.dissipation {
-        Some(law) => (law.exponent.value, law.used.1),
-        None => (0.0, 1),
+        Some(law) if law.constant => (law.exponent.value, law.used.1),
+        _ => (0.0, 1),
     };
     series_stiffness(&seed.levels, exponent, used)
 }
