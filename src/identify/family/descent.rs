@@ -1,9 +1,10 @@
 //! The way down: several starts, the best of them to the end, and what is left open held in place.
 
 use super::levenberg::{self, Free, minimise};
-use super::shape::{LAST_SHARE, NETWORK_SHARE, NUMBERS, Shape};
+use super::shape::{EXPONENT, LAST_SHARE, NETWORK_SHARE, NUMBERS, Shape};
 use super::target::Target;
 use super::uncertainty::{EXPONENT_RANGE, SHARE_UNKNOWN, Uncertainty};
+use crate::identify::interval::NORMAL_95;
 
 /// A shape with the descent that led there.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +42,7 @@ impl Best {
     /// Uncertainty of all five numbers here, held ones included.
     pub fn uncertainty(&self, target: &Target) -> Option<Uncertainty> {
         let residuals = |numbers: &[f64]| target.residuals(&self.shape.with(numbers));
-        let free = free_numbers(&self.shape, None, 1.0);
+        let free = free_numbers(&self.shape, &Pull::none(), 1.0);
         let jacobian = levenberg::jacobian(&free, &self.shape.numbers(), &residuals)?;
         let (variance, inflation) = self.noise(target);
         Uncertainty::new(&jacobian, variance, inflation)
@@ -76,7 +77,8 @@ pub fn settled(target: &Target, free: &Best, known: &Uncertainty) -> Best {
     let held = known.ignores_share(LAST_SHARE).then_some(0.0);
     let pull = Pull {
         strength: (variance * inflation).sqrt() / SHARE_UNKNOWN,
-        held,
+        last_share: held,
+        exponent: None,
     };
     let mut start = free.shape;
     start.last_share = held.unwrap_or(start.last_share);
@@ -89,26 +91,57 @@ pub fn settled(target: &Target, free: &Best, known: &Uncertainty) -> Best {
     }
 }
 
-/// What is known of the two shares without data.
+/// The best joints with χ at either end of its 95 % interval: the curved valley along which the other
+/// numbers follow χ. `None` where χ is so well known that the valley is straight.
+pub fn along_exponent(target: &Target, best: &Best, known: &Uncertainty) -> Option<[Shape; 2]> {
+    let width = NORMAL_95 * known.deviation(EXPONENT);
+    if width < STRAIGHT {
+        return None;
+    }
+    let (variance, inflation) = best.noise(target);
+    let end = |sign: f64| {
+        let exponent =
+            (best.shape.exponent + sign * width).clamp(EXPONENT_RANGE.0, EXPONENT_RANGE.1);
+        let pull = Pull {
+            strength: (variance * inflation).sqrt() / SHARE_UNKNOWN,
+            last_share: (best.shape.last_share == 0.0).then_some(0.0),
+            exponent: Some(exponent),
+        };
+        let start = Shape {
+            exponent,
+            ..best.shape
+        };
+        descend(target, &start, &pull, LAST, 1.0).map(|found| found.shape)
+    };
+    Some([end(-1.0)?, end(1.0)?])
+}
+
+/// Half-width of χ below which first order is enough for all that depends on it.
+const STRAIGHT: f64 = 0.02;
+
+/// What is known of the two shares without data, and what is held.
 struct Pull {
     /// Residual per unit of a share's distance from the middle; zero pulls nothing.
     strength: f64,
     /// Value at which σ is held.
-    held: Option<f64>,
+    last_share: Option<f64>,
+    /// Value at which χ is held.
+    exponent: Option<f64>,
 }
 
 impl Pull {
     fn none() -> Pull {
         Pull {
             strength: 0.0,
-            held: None,
+            last_share: None,
+            exponent: None,
         }
     }
 
     /// Residuals beside those of the records.
     fn residuals(&self, numbers: &[f64]) -> [f64; 2] {
         let pull = |number: usize| self.strength * (numbers[number] - 0.5);
-        let last = if self.held.is_some() {
+        let last = if self.last_share.is_some() {
             0.0
         } else {
             pull(LAST_SHARE)
@@ -136,7 +169,7 @@ fn descend(
     most_iterations: usize,
     widened: f64,
 ) -> Option<Best> {
-    let free = free_numbers(start, pull.held, widened);
+    let free = free_numbers(start, pull, widened);
     let residuals = |numbers: &[f64]| {
         let mut all = target.residuals(&start.with(numbers))?;
         all.extend(pull.residuals(numbers));
@@ -153,7 +186,7 @@ fn descend(
     })
 }
 
-fn free_numbers(start: &Shape, held: Option<f64>, widened: f64) -> Vec<Free> {
+fn free_numbers(start: &Shape, pull: &Pull, widened: f64) -> Vec<Free> {
     let at = start.numbers();
     let free = |start: f64, lower: f64, upper: f64, step: f64| Free {
         start,
@@ -161,11 +194,13 @@ fn free_numbers(start: &Shape, held: Option<f64>, widened: f64) -> Vec<Free> {
         upper,
         step: step * widened,
     };
-    let (lowest, highest) = held.map_or((0.0, 0.999), |value| (value, value));
+    let range = |held: Option<f64>, free: (f64, f64)| held.map_or(free, |value| (value, value));
+    let exponents = range(pull.exponent, EXPONENT_RANGE);
+    let (lowest, highest) = range(pull.last_share, (0.0, 0.999));
     vec![
         free(at[0], at[0] - 12.0, at[0] + 12.0, 1e-5),
         free(at[1], at[1] - 40.0, at[1] + 40.0, 1e-5),
-        free(at[2], EXPONENT_RANGE.0, EXPONENT_RANGE.1, 1e-4),
+        free(at[2], exponents.0, exponents.1, 1e-4),
         free(at[NETWORK_SHARE], 1e-3, 1.0, 1e-4),
         free(at[LAST_SHARE], lowest, highest, 1e-4),
     ]

@@ -3,6 +3,7 @@
 
 mod branches;
 mod descent;
+mod estimates;
 mod levenberg;
 mod shape;
 mod start;
@@ -19,6 +20,7 @@ use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
 use descent::Best;
+use estimates::Known;
 use target::Target;
 use told::Told;
 use uncertainty::Uncertainty;
@@ -162,6 +164,12 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
              amplitude (modal mass times acceleration), or a time history",
         );
     }
+    if !law.constant {
+        return missing(
+            "no three levels share a slope of log dissipation over log force; give more levels at \
+             smaller forces, or a time history",
+        );
+    }
     let Some(stiffness) = &seed.stiffness else {
         return missing("give the column `displacement amplitude [m]` for the stiffness");
     };
@@ -184,11 +192,18 @@ fn concluded(target: &Target, best: Best, known: Uncertainty) -> Result<FamilyFi
     let shape = best.shape;
     let samples = best.residual.len();
     let relative_rms = best.rms();
+    let estimates = Known {
+        shape: &shape,
+        uncertainty: &known,
+        along_exponent: descent::along_exponent(target, &best, &known),
+        told,
+    }
+    .estimates();
     Ok(FamilyFit {
         drive: target.drive(),
         shape,
         joint: joint(&shape, told.slip_force)?,
-        estimates: known.estimates(&shape, told),
+        estimates,
         rms: relative_rms * target.scale(),
         relative_rms,
         autoregression: target.autoregression(&best.residual),

@@ -43,6 +43,8 @@ pub struct Shape {
 
 /// Count of [`Shape::numbers`].
 pub const NUMBERS: usize = 5;
+/// Place of χ among them.
+pub const EXPONENT: usize = 2;
 /// Place of λ among them.
 pub const NETWORK_SHARE: usize = 3;
 /// Place of σ among them.
@@ -75,7 +77,7 @@ impl Shape {
                 },
                 Size::SlipForce { .. } => Size::SlipForce { log: numbers[1] },
             },
-            exponent: numbers[2],
+            exponent: numbers[EXPONENT],
             network_share: numbers[NETWORK_SHARE],
             last_share: numbers[LAST_SHARE],
         }
