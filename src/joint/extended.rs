@@ -30,7 +30,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Both F(u) and U(u) rise, so either drive is one bracketed Newton search. Slip limits are those
 /// of the last accepted situation. Where no time passes, rates are zero.
 ///
-/// Checked in tests/extended.rs: equal to the exact response where nothing acts, work balance,
+/// Checked in tests/extended: equal to the exact response where nothing acts, work balance,
 /// closed forms of single effects, saved and restored state.
 #[derive(Debug, Clone)]
 pub(super) struct Extended {

@@ -2,6 +2,7 @@
 
 pub mod density;
 pub mod effect;
+pub mod error;
 mod extended;
 pub mod memory;
 pub mod network;
@@ -12,11 +13,12 @@ pub mod virgin;
 
 pub use density::{Density, FourParameter, PowerLaw, PowerLawTable, Sliders, SmallForce};
 pub use effect::{Acting, Effect, Place, Response, Situation, SlipLimit, Trajectory};
+pub use error::JointError;
 pub use memory::ExactResponse;
 pub use network::Network;
 pub use parameters::Parameter;
 pub use play::{PlayNetwork, Plays};
-pub use simulation::{Drive, JointError, Output, Simulation};
+pub use simulation::{Drive, Output, Simulation};
 pub use virgin::{BehindSpring, VirginCurve};
 
 /// Segalman's augmented joint (Eq. 52): a spring K_1 in series with an Iwan network, and the

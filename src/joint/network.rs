@@ -12,14 +12,54 @@ use super::effect::SlipLimit;
 /// negative. Checked in tests/network.rs against the play form and against the work done.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Network {
-    weight: Vec<f64>,
-    strength: Vec<f64>,
+    sliders: Vec<Slider>,
     elastic: f64,
-    force: Vec<f64>,
     slip: f64,
+    /// Limit of the open step, and what it lost by letting sliders go.
     limit: SlipLimit,
-    relaxed: Vec<f64>,
     let_go: f64,
+    gross: f64,
+}
+
+/// One slider; side by side in memory, since every step touches all of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Slider {
+    /// w \[N/m\].
+    weight: f64,
+    /// w d \[N\].
+    strength: f64,
+    /// f \[N\] as last accepted.
+    force: f64,
+    /// f \[N\] after letting go at the limit of the open step.
+    relaxed: f64,
+}
+
+impl Slider {
+    /// Force if it stuck, and the force that it can carry.
+    fn after(&self, increment: f64, limit: SlipLimit) -> (f64, f64) {
+        let stuck = self.relaxed + self.weight * increment;
+        (stuck, clamped(stuck, self.strength, limit))
+    }
+
+    /// Force and stiffness. At its limit a slider slides if pushed on and sticks if pushed back.
+    fn tried(&self, increment: f64, limit: SlipLimit, rising: bool) -> (f64, f64) {
+        let (stuck, force) = self.after(increment, limit);
+        let share = if rising {
+            limit.positive
+        } else {
+            -limit.negative
+        };
+        // No short circuit: this is the innermost loop, and a wrong guess costs more.
+        let sticks = (stuck == force) & (force != self.strength * share);
+        (force, if sticks { self.weight } else { 0.0 })
+    }
+}
+
+/// One instruction per bound, where `f64::clamp` also looks after numbers that are none.
+fn clamped(force: f64, strength: f64, limit: SlipLimit) -> f64 {
+    let (low, high) = (-strength * limit.negative, strength * limit.positive);
+    let above = if force > low { force } else { low };
+    if above < high { above } else { high }
 }
 
 /// What the network would answer at a slip. SI units.
@@ -29,29 +69,27 @@ pub struct Trial {
     pub force: f64,
     /// dF/du \[N/m\] along the direction asked for.
     pub stiffness: f64,
-    /// `Σ |f_j|` \[N\]: the scale of rounding errors in F.
+    /// About `Σ |f_j|` \[N\], no less: the scale of rounding errors in F.
     pub gross: f64,
 }
 
 impl Network {
     /// A virgin network at u = 0.
     pub fn new(sliders: &Sliders) -> Network {
-        let count = sliders.weight.len();
-        let strength = sliders
-            .weight
-            .iter()
-            .zip(&sliders.slip_at)
-            .map(|(w, d)| w * d)
-            .collect();
+        let pairs = sliders.weight.iter().zip(&sliders.slip_at);
+        let sliders_at_rest = pairs.map(|(weight, slip_at)| Slider {
+            weight: *weight,
+            strength: weight * slip_at,
+            force: 0.0,
+            relaxed: 0.0,
+        });
         Network {
-            weight: sliders.weight.clone(),
-            strength,
+            sliders: sliders_at_rest.collect(),
             elastic: sliders.elastic,
-            force: vec![0.0; count],
             slip: 0.0,
             limit: SlipLimit::UNCHANGED,
-            relaxed: vec![0.0; count],
             let_go: 0.0,
+            gross: 0.0,
         }
     }
 
@@ -62,16 +100,15 @@ impl Network {
 
     /// Force \[N\] last accepted.
     pub fn force(&self) -> f64 {
-        self.force.iter().sum::<f64>() + self.elastic * self.slip
+        self.sliders.iter().map(|s| s.force).sum::<f64>() + self.elastic * self.slip
     }
 
     /// `Σ f_j²/(2 w_j) + S_∞ u²/2` \[J\].
     pub fn stored_energy(&self) -> f64 {
         let sliders: f64 = self
-            .force
+            .sliders
             .iter()
-            .zip(&self.weight)
-            .map(|(f, w)| 0.5 * f * f / w)
+            .map(|s| 0.5 * s.force * s.force / s.weight)
             .sum();
         sliders + 0.5 * self.elastic * self.slip * self.slip
     }
@@ -87,7 +124,7 @@ impl Network {
         } else {
             self.limit.negative
         };
-        self.strength.iter().sum::<f64>() * share
+        self.sliders.iter().map(|s| s.strength).sum::<f64>() * share
     }
 
     /// Opens a step under `limit`: sliders above it let go at held u. Undone by the next `begin`.
@@ -97,88 +134,79 @@ impl Network {
             positive: limit.positive.max(0.0),
             negative: limit.negative.max(0.0),
         };
+        if limit == self.limit {
+            return; // relaxed already, by the last step
+        }
         self.limit = limit;
         self.let_go = 0.0;
-        for j in 0..self.force.len() {
-            let (low, high) = (
-                -self.strength[j] * limit.negative,
-                self.strength[j] * limit.positive,
-            );
-            let held = self.force[j];
-            let left = held.max(low).min(high);
-            self.relaxed[j] = left;
-            self.let_go += 0.5 * (held - left) * (held + left) / self.weight[j];
+        self.gross = 0.0;
+        for slider in &mut self.sliders {
+            let held = slider.force;
+            let left = clamped(held, slider.strength, limit);
+            slider.relaxed = left;
+            self.let_go += 0.5 * (held - left) * (held + left) / slider.weight;
+            self.gross += left.abs();
         }
     }
 
     /// Answer at `slip` \[m\] within the open step; `rising` tells which side of a kink counts.
     pub fn trial(&self, slip: f64, rising: bool) -> Trial {
         let increment = slip - self.slip;
-        let mut trial = Trial::default();
-        for ((start, weight), strength) in self.relaxed.iter().zip(&self.weight).zip(&self.strength)
-        {
-            let (low, high) = (
-                -strength * self.limit.negative,
-                strength * self.limit.positive,
-            );
-            let stuck = start + weight * increment;
-            let force = stuck.max(low).min(high);
-            let sticks = if rising {
-                stuck >= low && stuck < high
-            } else {
-                stuck > low && stuck <= high
-            };
-            trial.force += force;
-            trial.gross += force.abs();
-            trial.stiffness += if sticks { *weight } else { 0.0 };
+        let (mut force, mut stiffness) = (0.0, 0.0);
+        for slider in &self.sliders {
+            let (carried, sticking) = slider.tried(increment, self.limit, rising);
+            force += carried;
+            stiffness += sticking;
         }
         let remainder = self.elastic * slip;
-        trial.force += remainder;
-        trial.gross += remainder.abs();
-        trial.stiffness += self.elastic;
-        trial
+        Trial {
+            force: force + remainder,
+            stiffness: stiffness + self.elastic,
+            gross: self.gross.max(force.abs()) + stiffness * increment.abs() + remainder.abs(),
+        }
     }
 
     /// Takes `slip` \[m\] as the end of the open step; returns the frictional work \[J\], ≥ 0.
     pub fn accept(&mut self, slip: f64) -> f64 {
         let increment = slip - self.slip;
+        let limit = self.limit;
         let mut dissipated = self.let_go;
-        for j in 0..self.force.len() {
-            let strength = self.strength[j];
-            let (low, high) = (
-                -strength * self.limit.negative,
-                strength * self.limit.positive,
-            );
-            let stuck = self.relaxed[j] + self.weight[j] * increment;
-            let force = stuck.max(low).min(high);
-            dissipated += force * ((stuck - force) / self.weight[j]);
-            self.force[j] = force;
+        self.gross = 0.0;
+        for slider in &mut self.sliders {
+            let (stuck, force) = slider.after(increment, limit);
+            dissipated += force * (stuck - force) / slider.weight;
+            self.gross += force.abs();
+            (slider.force, slider.relaxed) = (force, force);
         }
         self.slip = slip;
         self.let_go = 0.0;
-        self.relaxed.copy_from_slice(&self.force);
         dissipated
     }
 
     /// Length of what [`Network::save`] appends.
     pub fn state_length(&self) -> usize {
-        self.force.len() + 1
+        self.sliders.len() + 1
     }
 
     /// Appends slip and slider forces.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.push(self.slip);
-        state.extend_from_slice(&self.force);
+        state.extend(self.sliders.iter().map(|slider| slider.force));
     }
 
     /// Puts back what [`Network::save`] appended; `state` has [`Network::state_length`] numbers.
     pub fn restore(&mut self, state: &[f64]) {
-        let Some((slip, force)) = state.split_first() else {
+        let Some((slip, forces)) = state.split_first() else {
             return;
         };
         self.slip = *slip;
-        self.force.copy_from_slice(force);
-        self.relaxed.copy_from_slice(force);
-        self.let_go = 0.0;
+        for (slider, force) in self.sliders.iter_mut().zip(forces) {
+            slider.force = *force;
+        }
+        // No limit equals this one: the next step relaxes anew.
+        self.limit = SlipLimit {
+            positive: f64::NAN,
+            negative: f64::NAN,
+        };
     }
 }

@@ -14,7 +14,7 @@ const MISSING: f64 = 1e-13;
 /// `[Λ_1]`; sliders that let go together at the end of the range are a cell of their own.
 ///
 /// Differs from [`Density::cells`](crate::joint::Density::cells), which is told the largest slip,
-/// by its finer grading towards zero. Checked in tests/extended.rs against the exact response.
+/// by its finer grading towards zero. Checked in tests/extended against the exact response.
 pub(in crate::joint) fn fine_cells(
     curve: &impl VirginCurve,
     count: usize,

@@ -1,0 +1,186 @@
+"""What fmpy's validation does not see in an archive: see `CHECKS`."""
+
+import re
+import subprocess
+import tempfile
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+ROOT = Path(__file__).resolve().parents[2]
+FUNCTIONS = {
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2SetDebugLogging",
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2Reset",
+    "fmi2GetReal",
+    "fmi2GetInteger",
+    "fmi2GetBoolean",
+    "fmi2GetString",
+    "fmi2SetReal",
+    "fmi2SetInteger",
+    "fmi2SetBoolean",
+    "fmi2SetString",
+    "fmi2GetFMUstate",
+    "fmi2SetFMUstate",
+    "fmi2FreeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SerializeFMUstate",
+    "fmi2DeSerializeFMUstate",
+    "fmi2GetDirectionalDerivative",
+    "fmi2SetRealInputDerivatives",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2DoStep",
+    "fmi2CancelStep",
+    "fmi2GetStatus",
+    "fmi2GetRealStatus",
+    "fmi2GetIntegerStatus",
+    "fmi2GetBooleanStatus",
+    "fmi2GetStringStatus",
+}
+PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
+ORDER = [
+    "CoSimulation",
+    "UnitDefinitions",
+    "LogCategories",
+    "DefaultExperiment",
+    "ModelVariables",
+    "ModelStructure",
+]
+
+
+def read(archive: Path) -> ElementTree.Element:
+    """The root of modelDescription.xml."""
+    with zipfile.ZipFile(archive) as content:
+        return ElementTree.fromstring(content.read("modelDescription.xml"))
+
+
+def reals(root: ElementTree.Element) -> list[tuple[dict, dict]]:
+    """Attributes of each ScalarVariable with those of its Real."""
+    variables = root.findall("ModelVariables/ScalarVariable")
+    return [(variable.attrib, variable.find("Real").attrib) for variable in variables]
+
+
+def entries_are_deflated_and_in_place(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as content:
+        infos = content.infolist()
+    names = {info.filename for info in infos}
+    assert len(names) == len(infos), "an entry stands twice"
+    assert {"modelDescription.xml", "resources/joint.json", "documentation/index.html"} <= names
+    assert all(info.compress_type == zipfile.ZIP_DEFLATED for info in infos)
+
+
+def binaries_are_named_after_the_identifier(archive: Path) -> None:
+    identifier = read(archive).find("CoSimulation").get("modelIdentifier")
+    assert identifier == "IwanJoint"
+    with zipfile.ZipFile(archive) as content:
+        binaries = [name for name in content.namelist() if name.startswith("binaries/")]
+    assert binaries, "no binary"
+    for name in binaries:
+        _, platform, file = name.split("/")
+        assert file == f"{identifier}.{PLATFORMS[platform]}", name
+
+
+def exactly_the_fmi_functions_are_exported(archive: Path) -> None:
+    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(archive) as content:
+        library = content.extract("binaries/linux64/IwanJoint.so", folder)
+        command = ["nm", "-D", "--defined-only", library]
+        listing = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    symbols = {line.split()[-1] for line in listing.splitlines()}
+    assert symbols == FUNCTIONS, symbols ^ FUNCTIONS
+
+
+def elements_stand_in_the_order_of_the_schema(archive: Path) -> None:
+    assert [child.tag for child in read(archive)] == ORDER
+
+
+def bounds_hold_the_start_values(archive: Path) -> None:
+    for variable, real in reals(read(archive)):
+        lower, upper = float(real.get("min", "-inf")), float(real.get("max", "inf"))
+        assert lower < upper, variable
+        assert lower <= float(real.get("start", lower)) <= upper, variable
+
+
+def initial_and_start_stand_where_they_may(archive: Path) -> None:
+    for variable, real in reals(read(archive)):
+        given = (variable["causality"], variable["variability"], variable.get("initial"))
+        assert given in {
+            ("input", "continuous", None),
+            ("output", "continuous", "calculated"),
+            ("local", "continuous", "calculated"),
+            ("parameter", "fixed", "exact"),
+        }, variable
+        assert ("start" in real) == (variable["causality"] in {"input", "parameter"}), variable
+
+
+def names_and_references_are_unique(archive: Path) -> None:
+    variables = [variable for variable, _ in reals(read(archive))]
+    for key in ("name", "valueReference"):
+        values = [variable[key] for variable in variables]
+        assert len(set(values)) == len(values), f"{key} stands twice"
+
+
+def references_are_those_of_the_tables(archive: Path) -> None:
+    tables = {}
+    for file in ("signals.csv", "parameters.csv", "causes.csv"):
+        for line in (ROOT / "modelDescription" / file).read_text().splitlines():
+            if not line.startswith("#"):
+                reference, name = (cell.strip() for cell in line.split(",")[:2])
+                tables[name] = int(reference)
+    for variable, _ in reals(read(archive)):
+        owner, _, parameter = variable["name"].partition(".")
+        offset = int(variable["valueReference"]) - tables[owner]
+        assert (0 <= offset < 16) if parameter else offset == 0, variable
+
+
+def units_are_defined_with_base_units(archive: Path) -> None:
+    root = read(archive)
+    defined = {unit.get("name"): unit for unit in root.findall("UnitDefinitions/Unit")}
+    for variable, real in reals(root):
+        assert defined[real["unit"]].find("BaseUnit") is not None, variable
+
+
+def experiment_runs_forward(archive: Path) -> None:
+    experiment = read(archive).find("DefaultExperiment").attrib
+    assert float(experiment["startTime"]) < float(experiment["stopTime"])
+    assert float(experiment["stepSize"]) > 0
+
+
+def structure_names_every_output(archive: Path) -> None:
+    root = read(archive)
+    causalities = [variable["causality"] for variable, _ in reals(root)]
+    outputs = [i + 1 for i, causality in enumerate(causalities) if causality == "output"]
+    for element in ("Outputs", "InitialUnknowns"):
+        unknowns = root.findall(f"ModelStructure/{element}/Unknown")
+        assert [int(unknown.get("index")) for unknown in unknowns] == outputs, element
+        for unknown in unknowns:
+            dependencies = unknown.get("dependencies").split()
+            assert all(1 <= int(index) <= len(causalities) for index in dependencies)
+            assert "dependenciesKind" not in unknown.attrib
+
+
+def guid_is_written_in_full(archive: Path) -> None:
+    guid = read(archive).get("guid")
+    assert re.fullmatch(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}", guid), guid
+
+
+CHECKS = [
+    entries_are_deflated_and_in_place,
+    binaries_are_named_after_the_identifier,
+    exactly_the_fmi_functions_are_exported,
+    elements_stand_in_the_order_of_the_schema,
+    bounds_hold_the_start_values,
+    initial_and_start_stand_where_they_may,
+    names_and_references_are_unique,
+    references_are_those_of_the_tables,
+    units_are_defined_with_base_units,
+    experiment_runs_forward,
+    structure_names_every_output,
+    guid_is_written_in_full,
+]

@@ -1,0 +1,93 @@
+"""Runs exported joints in fmpy and holds them against `iwan simulate`.
+
+    python tests/fmu/run_fmpy.py [--iwan target/release/iwan] [JOINT.fmu …]
+
+Without archives four are exported first: driven in force and in displacement, with and without
+causes; the archive that the environment variable IWAN_FMU names is run too. Exit status 0 where all
+passed; the last line says `N passed, N failed`.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+
+import fmpy_archive
+import fmpy_simulation
+
+BOLT = {
+    "format": "iwan-joint/1",
+    "version": "0.1.0",
+    "units": "SI",
+    "density": {
+        "family": "four_parameter",
+        "slip_force": 1000.0,
+        "stiffness": 1.5e7,
+        "exponent": -0.4,
+        "ratio": 0.3,
+    },
+    "series_stiffness": 4e7,
+    "causes": [],
+}
+CAUSES = [
+    {
+        "name": "pinning",
+        "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5},
+    },
+    {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
+]
+
+
+def export(iwan: Path, folder: Path) -> list[Path]:
+    """Archives of one bolt, in both drives, with and without causes."""
+    archives = []
+    for name, causes in (("bolt", []), ("bolt-with-causes", CAUSES)):
+        joint = folder / f"{name}.json"
+        joint.write_text(json.dumps({**BOLT, "causes": causes}))
+        for drive in ("force", "displacement"):
+            archive = folder / f"{name}-{drive}.fmu"
+            command = [iwan, "export", joint, "-o", archive, "--drive", drive]
+            subprocess.run(command, check=True)
+            archives.append(archive)
+    if "IWAN_FMU" in os.environ:
+        archives.append(Path(os.environ["IWAN_FMU"]))
+    return archives
+
+
+def passes(name: str, check, subject) -> bool:
+    try:
+        check(subject)
+    except Exception:  # whatever went wrong, the check failed and the others still run
+        print(f"FAILED {name}")
+        traceback.print_exc(file=sys.stdout)
+        return False
+    print(f"passed {name}")
+    return True
+
+
+def main() -> int:
+    root = fmpy_archive.ROOT
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("archives", nargs="*", type=Path, metavar="JOINT.fmu")
+    program = os.environ.get("IWAN", root / "target/release/iwan")
+    parser.add_argument("--iwan", type=Path, default=program)
+    arguments = parser.parse_args()
+    iwan = arguments.iwan.resolve()
+    outcomes = []
+    with tempfile.TemporaryDirectory() as folder:
+        for archive in arguments.archives or export(iwan, Path(folder)):
+            for check in fmpy_archive.CHECKS:
+                outcomes.append(passes(f"{archive.name} {check.__name__}", check, archive))
+            unit = fmpy_simulation.Unit(archive, iwan)
+            for check in fmpy_simulation.CHECKS:
+                outcomes.append(passes(f"{archive.name} {check.__name__}", check, unit))
+    print(f"{sum(outcomes)} passed, {len(outcomes) - sum(outcomes)} failed")
+    return 0 if outcomes and all(outcomes) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
