@@ -1,10 +1,27 @@
 //! The catalogue of named causes: one file each, one line each in [`CATALOGUE`].
 
+pub mod ac_coupling;
 mod asymmetric_friction;
 mod clearance;
+pub mod creep;
+pub mod cubic_stiffness;
 mod displacement_drift;
+pub mod fixture_inertia;
+pub mod joint_opening;
+pub mod mains_hum;
+pub mod normal_load_variation;
+pub mod offset_step;
 mod pinning;
 mod preload_loss;
+pub mod quadratic_damping;
+pub mod rate_dependent_friction;
+pub mod running_in;
+pub mod sensor_delay;
+pub mod sensor_nonlinearity;
+pub mod sensor_saturation;
+pub mod slack_growth;
+pub mod static_friction_drop;
+pub mod velocity_weakening;
 mod viscous_damping;
 
 use crate::joint::effect::Effect;
