@@ -1,5 +1,6 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
+use super::sensor_delay::displacement_at;
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::parameters::Parameter;
@@ -17,45 +18,61 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "moving mass between the load cell and the joint",
 }];
 
-/// Reach of the second difference, in radians of the motion's own frequency: its value for a sine
-/// is 0.8 % low, and noise of the displacement comes in as if sampled that coarsely.
-const REACH: f64 = 0.3;
+/// Share of the joint's own stiffness that the mass may add at any frequency. Motion beyond the
+/// resonance of mass and joint is noise: were it resolved, taking `m Ü` off a measured force would
+/// raise that noise each time.
+const SHARE: f64 = 0.4;
 
-/// Ü \[m/s²\] by second differences over [`REACH`]; constant within that of either end.
-fn acceleration(truth: &Trajectory) -> Vec<f64> {
-    let count = truth.displacement.len();
-    let reach = reach(&truth.displacement).min(count.saturating_sub(1) / 2);
-    if reach == 0 {
+/// Ü \[m/s²\] by second differences over a reach of `√(4m/(SHARE K))`, at least a sample, with the
+/// loss that such a difference has at the motion's own frequency made good.
+fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
+    let (time, displacement) = (&truth.time, &truth.displacement);
+    let count = time.len();
+    let (moved, pushed) = (moves(displacement), moves(&truth.force));
+    if count < 3 || moved == 0.0 {
         return vec![0.0; count];
     }
-    let rate = |from: usize, to: usize| {
-        (truth.displacement[to] - truth.displacement[from]) / (truth.time[to] - truth.time[from])
+    let reach = (4.0 * mass / SHARE * (moved / pushed).sqrt()).sqrt();
+    let reach = reach.min(0.25 * (time[count - 1] - time[0]));
+    let half = (0.5 * reach * frequency(truth)).min(1.0);
+    let made_good = if half > 0.0 {
+        (half / half.sin()).powi(2)
+    } else {
+        1.0
     };
     (0..count)
         .map(|sample| {
-            let middle = sample.clamp(reach, count - 1 - reach);
-            let (before, after) = (middle - reach, middle + reach);
-            let change = rate(middle, after) - rate(before, middle);
-            2.0 * change / (truth.time[after] - truth.time[before])
+            let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
+            let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
+            // Constant within a reach of either end.
+            let middle = time[sample]
+                .max(time[0] + reach)
+                .min(time[count - 1] - reach);
+            let at = |shift| displacement_at(truth, middle + shift);
+            made_good * (at(reach) - 2.0 * at(0.0) + at(-reach)) / (reach * reach)
         })
         .collect()
 }
 
-/// Samples of one reach: the motion's frequency is the ratio of its rate to its size.
-fn reach(displacement: &[f64]) -> usize {
-    let count = displacement.len().max(1) as f64;
-    let mean = displacement.iter().sum::<f64>() / count;
-    let size: f64 = displacement.iter().map(|u| (u - mean).powi(2)).sum();
-    let moved: f64 = displacement
+/// Sum of squares of the moves from sample to sample.
+fn moves(channel: &[f64]) -> f64 {
+    channel
         .windows(2)
         .map(|two| (two[1] - two[0]).powi(2))
-        .sum();
-    // No motion, no acceleration, whatever the reach.
-    if moved > 0.0 {
-        ((REACH * (size / moved).sqrt()).round() as usize).max(1)
-    } else {
-        1
+        .sum()
+}
+
+/// The motion's own frequency \[rad/s\]: ratio of its rate to its size, in the mean of squares.
+fn frequency(truth: &Trajectory) -> f64 {
+    let count = truth.displacement.len() as f64;
+    let mean = truth.displacement.iter().sum::<f64>() / count;
+    let (mut size, mut rate) = (0.0, 0.0);
+    for (time, u) in truth.time.windows(2).zip(truth.displacement.windows(2)) {
+        let length = time[1] - time[0];
+        size += (u[0] - mean).powi(2) * length;
+        rate += (u[1] - u[0]).powi(2) / length;
     }
+    (rate / size).sqrt()
 }
 
 impl Effect for FixtureInertia {
@@ -69,7 +86,10 @@ impl Effect for FixtureInertia {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        acceleration(truth).iter().map(|a| values[0] * a).collect()
+        acceleration(values[0], truth)
+            .iter()
+            .map(|a| values[0] * a)
+            .collect()
     }
 }
 
@@ -105,13 +125,16 @@ mod tests {
         let time: Vec<f64> = (0..4000).map(|i| 1e-3 * f64::from(i)).collect();
         let truth = Trajectory {
             displacement: time.iter().map(|t| 2e-6 * (20.0 * t).sin()).collect(),
-            force: vec![0.0; time.len()],
+            force: time.iter().map(|t| 50.0 * (20.0 * t).sin()).collect(),
             time,
         };
-        let added = FixtureInertia.channel(&[3.0], &truth);
-        for (added, u) in added.iter().zip(&truth.displacement).skip(30).take(3900) {
-            // REACH²/12 = 0.75 % low; the edges of the record are left out.
-            assert!((added + 3.0 * 400.0 * u).abs() < 0.01 * 3.0 * 400.0 * 2e-6);
+        // From nothing to a tenth of the force, where the reach is a radian.
+        for mass in [1.0, 300.0, 6250.0] {
+            let added = FixtureInertia.channel(&[mass], &truth);
+            for (added, u) in added.iter().zip(&truth.displacement).skip(60).take(3800) {
+                // The record holds no whole number of cycles: its frequency is known to 0.1 %.
+                assert!((added + mass * 400.0 * u).abs() < 1e-3 * mass * 400.0 * 2e-6);
+            }
         }
     }
 

@@ -19,7 +19,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
 
 /// U at `time` by cubic pieces through the samples with slopes of their neighbours; before the
 /// record the joint was at rest, after it the last piece goes straight on.
-fn displacement_at(truth: &Trajectory, time: f64) -> f64 {
+pub(super) fn displacement_at(truth: &Trajectory, time: f64) -> f64 {
     let (t, u) = (&truth.time, &truth.displacement);
     let last = t.len() - 1;
     let after = t.partition_point(|&sample| sample <= time);
