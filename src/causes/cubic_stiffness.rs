@@ -5,6 +5,9 @@ use crate::joint::effect::{Effect, Place, Response};
 use crate::joint::parameters::Parameter;
 
 /// A displacement of the spring beyond F/K_1, `δ = b F³`; positive softens, negative hardens.
+///
+/// A hardening law holds up to the force where `3 |b| F²` uses up the compliance of joint and
+/// spring: beyond it displacement would fall with force, which no spring does.
 pub struct CubicStiffness;
 
 static PARAMETERS: [Parameter; 1] = [Parameter {
@@ -14,7 +17,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: -1.0,
     upper: 1.0,
     vanishes_at: Some(0.0),
-    meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens and then holds up to the force where 3 b F^2 uses up the joint's compliance",
+    meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens",
 }];
 
 impl Effect for CubicStiffness {
@@ -43,7 +46,7 @@ impl Cause for CubicStiffness {
             sign: "Backbone of the loops bends with the third power of the force while their area stays as it was; equal in tension and compression, in every cycle and at every rate; third harmonic in phase with the force.",
             mistaken_for: &["pinning", "sensor_nonlinearity", "joint_opening"],
             separated_by: "It sets in from zero force, pinning beyond a gap; unloading branches bend as loading ones do, while microslip bends each branch anew; a dummy specimen shows a sensor's cube and not this one.",
-            formula: "U = u + F/K_1 + b F^3",
+            formula: "U = u + F/K_1 + b F^3; hardening holds while 3 |b| F^2 is less than the compliance of joint and spring",
             source: "First odd term of a non-linear elastic spring (Duffing), written in compliance.",
         }
     }
