@@ -49,7 +49,27 @@ pub fn diagnose(
     assemble(records, &bench, found)
 }
 
+/// Share of the structure that a named set must at least take away: one that takes less is the
+/// least bad of wrong explanations.
+const TAKES: f64 = 0.25;
+
+/// Takes back names that leave nearly all of the structure where it was.
+fn sober(bench: &Bench, found: Found) -> Found {
+    let before = structure(&bench.whole, &found.baseline.predict(&bench.whole));
+    let after = structure(&bench.whole, &found.best.predict(&bench.whole));
+    if before.significance > verdict::STRUCTURED && after.share > (1.0 - TAKES) * before.share {
+        return Found {
+            best: found.baseline.clone(),
+            rivals: Vec::new(),
+            evidence: Vec::new(),
+            ..found
+        };
+    }
+    found
+}
+
 fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings, JointError> {
+    let found = sober(bench, found);
     let before = found.baseline.predict(&bench.train);
     let after = found.best.predict(&bench.train);
     let gain = gain::ratio(bench, &before, &after);
