@@ -272,8 +272,7 @@ fn intervals_hold_the_truth_nearly_as_often_as_they_say() {
     }
     println!("{held} of {asked} intervals hold the truth");
     // 40 pairs at 0.92, the two of a pair taken as one: 0.92 ± 0.043; 62 of 80 is 3.4 deviations
-    // below. Half of that many was what an interval without the curved valley and without the
-    // unknown split gave.
+    // below. Holding the unknown split of the compliance at one value gives half of that.
     assert!(held >= 62, "{held} of {asked}");
 }
 
