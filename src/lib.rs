@@ -21,5 +21,7 @@ pub mod read;
 pub mod record;
 #[cfg(feature = "tool")]
 pub mod report;
+#[cfg(feature = "tool")]
+pub mod residual;
 pub mod saved;
 pub mod variables;

@@ -1,10 +1,27 @@
 //! The catalogue of named causes: one file each, one line each in [`CATALOGUE`].
 
+mod ac_coupling;
 mod asymmetric_friction;
 mod clearance;
+mod creep;
+mod cubic_stiffness;
 mod displacement_drift;
+mod fixture_inertia;
+mod joint_opening;
+mod mains_hum;
+mod normal_load_variation;
+mod offset_step;
 mod pinning;
 mod preload_loss;
+mod quadratic_damping;
+mod rate_dependent_friction;
+mod running_in;
+mod sensor_delay;
+mod sensor_nonlinearity;
+mod sensor_saturation;
+mod slack_growth;
+mod static_friction_drop;
+mod velocity_weakening;
 mod viscous_damping;
 
 use crate::joint::effect::Effect;
@@ -82,11 +99,28 @@ pub trait Cause: Effect {
 /// Every cause known, in the order of the documentation.
 pub static CATALOGUE: &[&dyn Cause] = &[
     &viscous_damping::ViscousDamping,
+    &quadratic_damping::QuadraticDamping,
     &pinning::Pinning,
     &clearance::Clearance,
+    &slack_growth::SlackGrowth,
+    &cubic_stiffness::CubicStiffness,
+    &joint_opening::JointOpening,
     &asymmetric_friction::AsymmetricFriction,
+    &normal_load_variation::NormalLoadVariation,
     &preload_loss::PreloadLoss,
+    &running_in::RunningIn,
+    &rate_dependent_friction::RateDependentFriction,
+    &velocity_weakening::VelocityWeakening,
+    &static_friction_drop::StaticFrictionDrop,
+    &creep::Creep,
+    &fixture_inertia::FixtureInertia,
+    &sensor_delay::SensorDelay,
     &displacement_drift::DisplacementDrift,
+    &offset_step::OffsetStep,
+    &mains_hum::MainsHum,
+    &ac_coupling::AcCoupling,
+    &sensor_saturation::SensorSaturation,
+    &sensor_nonlinearity::SensorNonlinearity,
 ];
 
 /// The cause of that name.

@@ -11,7 +11,7 @@ use crate::read::Loaded;
 use crate::saved::{Provenance, RecordUsed, SavedJoint};
 use found::Found;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Identify the joint from measured records or an amplitude table.
 #[derive(Debug, clap::Args)]
@@ -43,7 +43,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     } else {
         text::report(&found)
     };
-    if arguments.output == PathBuf::from("-") && !arguments.json {
+    if arguments.output == Path::new("-") {
         // The joint has the standard output for itself.
         eprint!("{report}");
     } else {

@@ -83,8 +83,7 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 /// Prepares records: form, first unweighted baseline, noise, weights, marks.
 pub fn prepare(records: &[Record]) -> Bench {
     let form = form(records);
-    let whole = Problem::new(form, records);
-    let first = baseline(&whole);
+    let (whole, first) = fitted(Problem::new(form, records));
     let noise = noise(&whole, &first);
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
@@ -147,6 +146,21 @@ impl Bench {
             })
             .collect()
     }
+}
+
+/// The baseline on a grid adapted to it, as long as that lowers the misfit.
+fn fitted(mut problem: Problem) -> (Problem, Fit) {
+    let mut fit = baseline(&problem);
+    for _ in 0..3 {
+        let mut finer = problem.clone();
+        finer.operators = problem.operators.adapted(&fit.coefficients);
+        let refitted = baseline(&finer);
+        if refitted.misfit >= fit.misfit {
+            break;
+        }
+        (problem, fit) = (finer, refitted);
+    }
+    (problem, fit)
 }
 
 /// Noise of the judged channel: from repeated cycles where a record has them, else lent by the

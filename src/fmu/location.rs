@@ -108,16 +108,16 @@ mod tests {
     #[test]
     fn every_form_seen_in_importers_means_the_same_folder() {
         for form in [
-            "file:///tmp/a b/resources",
-            "file:///tmp/a%20b/resources",
-            "file:////tmp/a%20b/resources",
-            "file:/tmp/a%20b/resources",
-            "file://localhost/tmp/a%20b/resources/",
-            "FILE:///tmp/a%20b/resources/",
-            "/tmp/a b/resources",
+            "file:///srv/a b/resources",
+            "file:///srv/a%20b/resources",
+            "file:////srv/a%20b/resources",
+            "file:/srv/a%20b/resources",
+            "file://localhost/srv/a%20b/resources/",
+            "FILE:///srv/a%20b/resources/",
+            "/srv/a b/resources",
         ] {
             // `PathBuf` compares by components: `//tmp` and a trailing slash mean the same.
-            assert_eq!(first(form), PathBuf::from("/tmp/a b/resources"), "{form}");
+            assert_eq!(first(form), PathBuf::from("/srv/a b/resources"), "{form}");
         }
         assert_eq!(
             first("file:///C:/a/resources"),

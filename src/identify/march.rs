@@ -2,13 +2,14 @@
 //! sample. The judged channel it predicts is the simulation, so identification and simulation
 //! cannot disagree.
 
-use super::operators::{Form, Operators};
+use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation, Trajectory};
 
 /// Effects sorted by place, with the history they keep.
 pub struct March<'a> {
     operators: &'a Operators,
-    coefficients: &'a [f64],
+    elastic: f64,
+    weights: Vec<f64>,
     effects: &'a [Acting],
     memories: Vec<Vec<f64>>,
     positions: Vec<f64>,
@@ -35,7 +36,7 @@ fn index(place: Place) -> usize {
 }
 
 impl<'a> March<'a> {
-    /// A virgin joint with the given coefficients (elastic first, then one per threshold).
+    /// A virgin joint with the given coefficients (elastic first, then one per cell).
     pub fn new(operators: &'a Operators, coefficients: &'a [f64], effects: &'a [Acting]) -> Self {
         let mut has = [false; 7];
         for acting in effects {
@@ -43,7 +44,8 @@ impl<'a> March<'a> {
         }
         March {
             operators,
-            coefficients,
+            elastic: coefficients[0],
+            weights: operators.spread(&coefficients[1..]).collect(),
             effects,
             memories: effects
                 .iter()
@@ -66,8 +68,9 @@ impl<'a> March<'a> {
                 Form::Play => self.network_force(),
                 Form::Stop => self.last.slip,
             };
-        for (value, position) in row[1..].iter_mut().zip(&self.positions) {
-            *value = position * step.share;
+        let share = step.share / SHARED as f64;
+        for (value, cell) in row[1..].iter_mut().zip(self.positions.chunks_exact(SHARED)) {
+            *value = cell.iter().sum::<f64>() * share;
         }
     }
 
@@ -150,8 +153,8 @@ impl<'a> March<'a> {
     /// Network output for a trial input, its tangent, the operators' trial positions.
     fn network(&mut self, input: f64) -> (f64, f64) {
         let (positive, negative) = self.limits;
-        let mut output = self.coefficients[0] * input;
-        let mut tangent = self.coefficients[0];
+        let mut output = self.elastic * input;
+        let mut tangent = self.elastic;
         match self.operators.form {
             Form::Play => {
                 for (((trial, &position), &r), &c) in self
@@ -159,7 +162,7 @@ impl<'a> March<'a> {
                     .iter_mut()
                     .zip(&self.positions)
                     .zip(&self.operators.thresholds)
-                    .zip(&self.coefficients[1..])
+                    .zip(&self.weights)
                 {
                     let low = input - r * positive;
                     let high = input + r * negative;
@@ -176,7 +179,7 @@ impl<'a> March<'a> {
                     .iter_mut()
                     .zip(&self.positions)
                     .zip(&self.operators.thresholds)
-                    .zip(&self.coefficients[1..])
+                    .zip(&self.weights)
                 {
                     let elastic = position + increment;
                     let held = elastic.max(-d * negative).min(d * positive);
@@ -335,12 +338,12 @@ impl<'a> March<'a> {
         let (slip, force, displacement, velocity) = answer;
         let mut dissipated = 0.0;
         let (positive, negative) = self.limits;
-        for ((&trial, &position), (&threshold, &c)) in self.trial.iter().zip(&self.positions).zip(
-            self.operators
-                .thresholds
-                .iter()
-                .zip(&self.coefficients[1..]),
-        ) {
+        for ((&trial, &position), (&threshold, &c)) in self
+            .trial
+            .iter()
+            .zip(&self.positions)
+            .zip(self.operators.thresholds.iter().zip(&self.weights))
+        {
             dissipated += match self.operators.form {
                 Form::Play => {
                     let moved = trial - position;

@@ -9,17 +9,26 @@ pub enum Form {
     Stop,
 }
 
-/// Thresholds of the operators, in units of the input channel, increasing.
+/// Cells of thresholds, in units of the input channel.
+///
+/// One coefficient stands for a whole cell, shared evenly by [`SHARED`] thresholds in it: a density
+/// constant over the cell. Point masses at the cells' edges would need the square of as many
+/// columns for the same error near full slip, where compliance rises steeply.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operators {
     /// Play or stop.
     pub form: Form,
-    /// `r_j` \[N\] for plays, `d_j` \[m\] for stops.
+    /// Upper edges of the cells, increasing; the first cell starts at zero.
+    pub edges: Vec<f64>,
+    /// `r_j` \[N\] for plays, `d_j` \[m\] for stops; [`SHARED`] per cell, increasing.
     pub thresholds: Vec<f64>,
 }
 
-/// Count of thresholds: fine enough that the piecewise-linear virgin curve errs by far less than
-/// the noise of any record (checked on noise-free records by the tests of this room).
+/// Thresholds that share one coefficient.
+pub const SHARED: usize = 4;
+
+/// Count of cells: fine enough that the virgin curve errs by far less than the noise of any record
+/// (checked on noise-free records by the tests of this room).
 const COUNT: usize = 40;
 
 impl Operators {
@@ -28,8 +37,8 @@ impl Operators {
     /// Plays crowd towards the largest force, `(j/N)^1.4`, because compliance rises there; stops
     /// are spread geometrically over three decades because stiffness falls from the start.
     pub fn grid(form: Form, range: f64) -> Operators {
-        let thresholds = match form {
-            Form::Play => (1..COUNT)
+        let edges = match form {
+            Form::Play => (1..=COUNT)
                 .map(|j| range * (j as f64 / COUNT as f64).powf(1.4))
                 .collect(),
             Form::Stop => {
@@ -41,11 +50,76 @@ impl Operators {
                 grid
             }
         };
-        Operators { form, thresholds }
+        Operators::with_edges(form, edges)
     }
 
-    /// Count of columns: the elastic one and one per threshold.
+    fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
+        let mut from = 0.0;
+        let mut thresholds = Vec::with_capacity(edges.len() * SHARED);
+        for &to in &edges {
+            for part in 0..SHARED {
+                thresholds.push(from + (to - from) * (part as f64 + 0.5) / SHARED as f64);
+            }
+            from = to;
+        }
+        Operators {
+            form,
+            edges,
+            thresholds,
+        }
+    }
+
+    /// One weight per threshold, from one coefficient per cell.
+    pub fn spread<'a>(&self, cells: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        cells
+            .iter()
+            .flat_map(|c| std::iter::repeat_n(c / SHARED as f64, SHARED))
+    }
+
+    /// A grid of as many thresholds, spread so that each cell holds as much of the cube root of the
+    /// identified density: a piecewise-linear virgin curve errs by spacing² × curvature, and its
+    /// squared error over the range is least when spacing³ × curvature is everywhere the same.
+    ///
+    /// `coefficients` are those fitted on this grid, the elastic one first. A third of the cells
+    /// stays where it was, so that no part of the range is left without thresholds.
+    pub fn adapted(&self, coefficients: &[f64]) -> Operators {
+        let n = self.edges.len();
+        let Some(&top) = self.edges.last() else {
+            return self.clone();
+        };
+        let edge = |j: usize| if j == 0 { 0.0 } else { self.edges[j - 1] };
+        let width = |j: usize| self.edges[j] - edge(j);
+        // Averaged over neighbours: a continuous density comes out of non-negative least squares
+        // as separate cells.
+        let density: Vec<f64> = (0..n)
+            .map(|j| {
+                let (from, to) = (j.saturating_sub(2), (j + 2).min(n - 1));
+                let mass: f64 = coefficients[1 + from..=1 + to].iter().sum();
+                (mass / (self.edges[to] - edge(from))).cbrt()
+            })
+            .collect();
+        let total: f64 = (0..n).map(|j| density[j] * width(j)).sum();
+        if total <= 0.0 {
+            return self.clone();
+        }
+        let kept = 1.0 / 3.0;
+        let mut reached = 0.0;
+        let mut edges = Vec::with_capacity(n);
+        let mut next = 1;
+        for j in 0..n {
+            let share = kept / n as f64 + (1.0 - kept) * density[j] * width(j) / total;
+            while next <= n && (next as f64 / n as f64) <= reached + share + 1e-12 {
+                let fraction = ((next as f64 / n as f64) - reached) / share;
+                edges.push((edge(j) + fraction * width(j)).min(top));
+                next += 1;
+            }
+            reached += share;
+        }
+        Operators::with_edges(self.form, edges)
+    }
+
+    /// Count of columns: the elastic one and one per cell.
     pub fn columns(&self) -> usize {
-        self.thresholds.len() + 1
+        self.edges.len() + 1
     }
 }

@@ -17,16 +17,16 @@ pub fn html(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> S
     let _ = write!(
         page,
         "<p>{}. Exported by iwan {}; GUID {guid}.</p>\n{USE}",
-        escape(&super::description(joint, drive)),
+        escape(super::description(joint, drive)),
         env!("CARGO_PKG_VERSION"),
     );
-    let _ = write!(
+    let _ = writeln!(
         page,
         "<p>Input <code>{input}</code>, answer <code>{output}</code>. The value of \
          <code>{input}</code> that is set before fmi2DoStep is its value at the <em>end</em> of the \
          step. An importer that also gives the input's time derivatives \
          (fmi2SetRealInputDerivatives, orders 1 to 3) has it continued from the communication point \
-         instead, and turning values inside the step are found.</p>\n"
+         instead, and turning values inside the step are found.</p>"
     );
     let _ = write!(
         page,

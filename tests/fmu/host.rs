@@ -88,7 +88,7 @@ pub struct Message {
     pub text: String,
 }
 
-/// Takes messages; `environment` is a `Vec<Message>`.
+/// Takes messages; `environment` is a [`Log`].
 unsafe extern "C" fn logger(
     environment: *mut c_void,
     instance: *const c_char,
@@ -106,7 +106,7 @@ unsafe extern "C" fn logger(
         format: read(format),
         text: read(printed.as_ptr()),
     };
-    unsafe { &mut *environment.cast::<Vec<Message>>() }.push(message);
+    unsafe { &mut *environment.cast::<Log>() }.0.push(message);
 }
 
 /// The logger as the variadic function that C has. Rust cannot define one on stable; on the
@@ -117,10 +117,14 @@ pub fn variadic() -> Logger {
     unsafe { std::mem::transmute::<Fixed, Logger>(logger) }
 }
 
+/// The messages, at a place that stays: the logger writes there.
+#[derive(Default)]
+struct Log(Vec<Message>);
+
 /// One instance with its log.
 pub struct Unit {
     pub handle: Component,
-    log: Box<Vec<Message>>,
+    log: Box<Log>,
 }
 
 // Handles may be used from different threads one after another.
@@ -149,7 +153,7 @@ impl Instantiate {
     /// The instance, or the log where it is refused.
     pub fn call(&self) -> Result<Unit, Vec<Message>> {
         let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |t| t.as_ptr());
-        let mut log = Box::new(Vec::new());
+        let mut log = Box::new(Log::default());
         let callbacks = CallbackFunctions {
             logger: Some(variadic()),
             allocate_memory: None,
@@ -169,7 +173,7 @@ impl Instantiate {
             )
         };
         if handle.is_null() {
-            Err(*log)
+            Err(log.0)
         } else {
             Ok(Unit { handle, log })
         }
@@ -211,8 +215,8 @@ impl Unit {
 
     pub fn log(&self) -> &[Message] {
         // Written through the callback's pointer meanwhile, hence read anew.
-        let log: *const Vec<Message> = &*self.log;
-        unsafe { (*log).as_slice() }
+        let log: *const Log = &*self.log;
+        unsafe { (*log).0.as_slice() }
     }
 
     pub fn set(&self, reference: u32, value: f64) -> Status {

@@ -57,13 +57,13 @@ impl Verdict {
     /// For reading.
     pub fn text(&self, archive: &str) -> String {
         let mut text = format!(
-            "{archive}: driven in {}, {} samples\n\n{:<20}{:>14}{:>14}{:>12}\n",
+            "{archive}: driven in {}, {} samples\n\n{:<24}{:>14}{:>14}{:>12}\n",
             self.input, self.samples, "", "largest value", "difference", "relative"
         );
         for difference in &self.differences {
             let name = format!("{} [{}]", difference.name, difference.unit);
             text += &format!(
-                "{name:<20}{:>14.6e}{:>14.3e}{:>12.1e}\n",
+                "{name:<24}{:>14.6e}{:>14.3e}{:>12.1e}\n",
                 difference.scale,
                 difference.largest,
                 difference.relative()

@@ -43,6 +43,8 @@ pub enum NothingFound {
 
 /// Misfit of the family over that of any joint beyond which the family is said not to fit.
 const WORSE: f64 = 1.1;
+/// Misfit relative to the judged channel from which on the joint is no description.
+const POOR: f64 = 0.3;
 /// Misfit relative to the judged channel below which such a ratio means nothing: the dictionary's
 /// own grid.
 const GRID: f64 = 1e-5;
@@ -110,6 +112,13 @@ impl Found {
         eprintln!("fitting a joint of any density …");
         let any_joint_rms = any_joint(records, drive);
         let mut noticed = seed.findings.clone();
+        if fit.relative_rms > POOR {
+            noticed.push(format!(
+                "The fitted joint leaves {:.0} % of the judged channel: it does not describe these \
+                 records.",
+                100.0 * fit.relative_rms
+            ));
+        }
         if let Some(any) = any_joint_rms
             && fit.rms > WORSE * any
             && fit.relative_rms > GRID

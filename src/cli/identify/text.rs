@@ -53,7 +53,7 @@ pub fn report(found: &Found) -> String {
         row(
             &mut out,
             "descent",
-            &format!("{ended} after {} iterations", fit.iterations),
+            &format!("{ended}, {} iterations", fit.iterations),
         );
         section(&mut out, &format!("Joint: {}", fit.joint.density.family()));
         for estimate in &fit.estimates {
@@ -101,7 +101,12 @@ fn procedure(out: &mut String, seed: &Seed) {
             law.range.0,
             law.range.1
         );
-        row(out, "constant slope over", &range);
+        let label = if law.constant {
+            "constant slope over"
+        } else {
+            "no constant slope; line over"
+        };
+        row(out, label, &range);
         estimated(out, &law.exponent);
         estimated(out, &law.coefficient);
     }
@@ -158,7 +163,7 @@ fn estimated(out: &mut String, estimate: &Estimated) {
         format!("{value:.6e}")
     };
     let spread = match estimate.half_width() {
-        Some(half) => format!("± {half:.1e} ({:.2} %)", 100.0 * (half / value).abs()),
+        Some(half) => format!("± {half:.1e} ({})", percent(100.0 * (half / value).abs())),
         None => "(not told by the data)".to_string(),
     };
     let boundary = match estimate.at_boundary {
@@ -168,6 +173,16 @@ fn estimated(out: &mut String, estimate: &Estimated) {
     };
     let label = format!("{name} {symbol}");
     row(out, &label, &format!("{number} {unit} {spread}{boundary}"));
+}
+
+/// Two significant digits, and no false exactness above a hundred.
+fn percent(value: f64) -> String {
+    match value {
+        v if v > 100.0 => "more than 100 %".to_string(),
+        v if v >= 10.0 => format!("{v:.0} %"),
+        v if v >= 0.01 => format!("{v:.2} %"),
+        v => format!("{v:.0e} %"),
+    }
 }
 
 fn section(out: &mut String, title: &str) {

@@ -13,7 +13,7 @@ struct Place {
 
 /// The branches of one driven channel.
 ///
-/// Masing's rule with return-point memory (THEORY of the report: `u = u_r + s 2 H(|F − F_r|/2)`)
+/// Masing's rule with return-point memory (`u = u_r + s 2 H(|F − F_r|/2)`)
 /// decides from the driven channel alone which reversal a sample belongs to; the curve enters
 /// afterwards. A fit therefore sorts the history once and evaluates the curve as often as it
 /// likes. Driven by force the curve is H(F) + F/K_1, driven by displacement its inverse.
@@ -126,7 +126,7 @@ mod tests {
         let force: Vec<f64> = (0..4000)
             .map(|i| {
                 let t = (i / 2) as f64 * 0.02;
-                45.0 * (t.sin() + (6.28318 * t).sin()) * (0.3 + 0.7 * (0.037 * t).sin())
+                45.0 * (t.sin() + (6.3 * t).sin()) * (0.3 + 0.7 * (0.037 * t).sin())
             })
             .collect();
         let density = crate::joint::Density::FourParameter(joint);

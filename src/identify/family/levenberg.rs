@@ -74,16 +74,15 @@ pub fn minimise(
                     || normal[(j, j)] <= blind
             })
             .collect();
-        let Some((next, next_residual)) = improved(
+        let place = Place {
             free,
-            &at,
+            at: &at,
             misfit,
-            &normal,
-            &gradient,
-            &held,
-            &mut damping,
-            residuals,
-        ) else {
+            normal,
+            gradient,
+            held,
+        };
+        let Some((next, next_residual)) = place.improved(&mut damping, residuals) else {
             converged = true;
             break;
         };
@@ -105,85 +104,93 @@ pub fn minimise(
     })
 }
 
-/// The first damped step that lowers the misfit.
-#[allow(clippy::too_many_arguments)]
-fn improved(
-    free: &[Free],
-    at: &[f64],
+/// Where a step starts.
+struct Place<'a> {
+    free: &'a [Free],
+    at: &'a [f64],
     misfit: f64,
-    normal: &DMatrix<f64>,
-    gradient: &DVector<f64>,
-    held: &[bool],
-    damping: &mut f64,
-    residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
-) -> Option<(Vec<f64>, Vec<f64>)> {
-    if held.iter().all(|&h| h) {
-        return None;
-    }
-    while *damping < 1e16 {
-        if let Some(next) = bounded_step(free, at, normal, gradient, held, *damping)
-            && let Some(residual) = residuals(&next)
-        {
-            let reached: f64 = residual.iter().map(|r| r * r).sum();
-            if reached < misfit {
-                *damping = (*damping * 0.1).max(1e-14);
-                return Some((next, residual));
-            }
-        }
-        *damping *= 10.0;
-    }
-    *damping = 1e-3;
-    None
+    normal: DMatrix<f64>,
+    gradient: DVector<f64>,
+    /// Numbers that stay for this step.
+    held: Vec<bool>,
 }
 
-/// The damped step within the bounds: a value that would leave goes to its bound, and the others
-/// are solved for again with it there. Cutting the step off instead would leave the valley.
-fn bounded_step(
-    free: &[Free],
-    at: &[f64],
-    normal: &DMatrix<f64>,
-    gradient: &DVector<f64>,
-    held: &[bool],
-    damping: f64,
-) -> Option<Vec<f64>> {
-    let mut step = vec![0.0; at.len()];
-    let mut fixed = held.to_vec();
-    loop {
-        let moving: Vec<usize> = (0..at.len()).filter(|&j| !fixed[j]).collect();
-        let n = moving.len();
-        if n == 0 {
-            break;
+impl Place<'_> {
+    /// The first damped step that lowers the misfit.
+    fn improved(
+        &self,
+        damping: &mut f64,
+        residuals: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        if self.held.iter().all(|&h| h) {
+            return None;
         }
-        let scale: Vec<f64> = moving.iter().map(|&j| normal[(j, j)].sqrt()).collect();
-        let mut damped = DMatrix::from_fn(n, n, |a, b| {
-            normal[(moving[a], moving[b])] / (scale[a] * scale[b])
-        });
-        for a in 0..n {
-            damped[(a, a)] += damping;
+        while *damping < 1e16 {
+            if let Some(next) = self.bounded_step(*damping)
+                && let Some(residual) = residuals(&next)
+            {
+                let reached: f64 = residual.iter().map(|r| r * r).sum();
+                if reached < self.misfit {
+                    *damping = (*damping * 0.1).max(1e-14);
+                    return Some((next, residual));
+                }
+            }
+            *damping *= 10.0;
         }
-        let right = DVector::from_fn(n, |a, _| {
-            let of_fixed: f64 = (0..at.len())
-                .filter(|&j| fixed[j])
-                .map(|j| normal[(moving[a], j)] * step[j])
-                .sum();
-            -(gradient[moving[a]] + of_fixed) / scale[a]
-        });
-        let solved = damped.cholesky()?.solve(&right);
-        let mut left = false;
-        for (a, &j) in moving.iter().enumerate() {
-            let wanted = at[j] + solved[a] / scale[a];
-            let bound = wanted.clamp(free[j].lower, free[j].upper);
-            step[j] = bound - at[j];
-            if bound != wanted {
-                fixed[j] = true;
-                left = true;
+        *damping = 1e-3;
+        None
+    }
+
+    /// The damped step within the bounds: a value that would leave goes to its bound, and the others
+    /// are solved for again with it there. Cutting the step off instead would leave the valley.
+    fn bounded_step(&self, damping: f64) -> Option<Vec<f64>> {
+        let Place {
+            free,
+            at,
+            normal,
+            gradient,
+            held,
+            ..
+        } = self;
+        let mut step = vec![0.0; at.len()];
+        let mut fixed = held.to_vec();
+        loop {
+            let moving: Vec<usize> = (0..at.len()).filter(|&j| !fixed[j]).collect();
+            let n = moving.len();
+            if n == 0 {
+                break;
+            }
+            let scale: Vec<f64> = moving.iter().map(|&j| normal[(j, j)].sqrt()).collect();
+            let mut damped = DMatrix::from_fn(n, n, |a, b| {
+                normal[(moving[a], moving[b])] / (scale[a] * scale[b])
+            });
+            for a in 0..n {
+                damped[(a, a)] += damping;
+            }
+            let right = DVector::from_fn(n, |a, _| {
+                let of_fixed: f64 = (0..at.len())
+                    .filter(|&j| fixed[j])
+                    .map(|j| normal[(moving[a], j)] * step[j])
+                    .sum();
+                -(gradient[moving[a]] + of_fixed) / scale[a]
+            });
+            let solved = damped.cholesky()?.solve(&right);
+            let mut left = false;
+            for (a, &j) in moving.iter().enumerate() {
+                let wanted = at[j] + solved[a] / scale[a];
+                let bound = wanted.clamp(free[j].lower, free[j].upper);
+                step[j] = bound - at[j];
+                if bound != wanted {
+                    fixed[j] = true;
+                    left = true;
+                }
+            }
+            if !left {
+                break;
             }
         }
-        if !left {
-            break;
-        }
+        Some(at.iter().zip(&step).map(|(a, s)| a + s).collect())
     }
-    Some(at.iter().zip(&step).map(|(a, s)| a + s).collect())
 }
 
 /// d residual / d value at a place; `None` where it has no residuals.
@@ -243,8 +250,12 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
         let rosenbrock = |x: &[f64]| Some(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]);
-        let found = minimise(&[free(-1.2, -5.0, 5.0), free(1.0, -5.0, 5.0)], &rosenbrock)
-            .expect("it has a start");
+        let found = minimise(
+            &[free(-1.2, -5.0, 5.0), free(1.0, -5.0, 5.0)],
+            100,
+            &rosenbrock,
+        )
+        .expect("it has a start");
         assert!(found.converged);
         assert!((found.at[0] - 1.0).abs() < 1e-8 && (found.at[1] - 1.0).abs() < 1e-8);
     }

@@ -2,23 +2,28 @@
 //! records themselves with the exact response.
 
 mod branches;
+mod descent;
+mod estimates;
 mod levenberg;
 mod shape;
 mod start;
 mod target;
+mod told;
 mod uncertainty;
 
 pub use branches::Branches;
 pub use levenberg::{Free, Minimum, minimise};
-pub use shape::Shape;
+pub use shape::{Shape, Size};
 
 use super::interval::Estimated;
 use super::seed::{Over, Seed};
 use crate::joint::{Density, Drive, Joint, JointError, PowerLaw};
 use crate::record::Record;
-use shape::{LAST_SHARE, NETWORK_SHARE};
+use descent::Best;
+use estimates::Known;
 use target::Target;
-use uncertainty::{EXPONENT_RANGE, Uncertainty};
+use told::Told;
+use uncertainty::Uncertainty;
 
 /// Why no family could be fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -77,11 +82,15 @@ pub struct FamilyFit {
 /// Tangent over initial stiffness below which force-driven response is ill-conditioned and the
 /// joint is fitted under displacement.
 const DEEP: f64 = 0.3;
+/// Fullness of the loops from which on the same holds: an elastoplastic joint has it at 1.2 times
+/// its yield displacement.
+const FULL: f64 = 0.17;
 const LEAST_SAMPLES: usize = 20;
 
 /// Which channel to prescribe: force, unless the deepest curve goes near full slip.
 pub fn drive_for(seed: &Seed) -> Drive {
     match &seed.monotonic {
+        _ if seed.fullness > FULL => Drive::Displacement,
         Some(curve) if curve.softening() < DEEP => Drive::Displacement,
         _ => Drive::Force,
     }
@@ -89,9 +98,9 @@ pub fn drive_for(seed: &Seed) -> Drive {
 
 /// Fits the family to all records at once, one offset per record, with the exact response.
 ///
-/// The four parameters and K_1 are fitted by bounded Levenberg–Marquardt from several starts. Where
-/// the data do not tell the split of the compliance, K_1 is taken as infinite; where they do not
-/// reach full slip, β as zero; both are then said.
+/// The four parameters and K_1 are fitted by bounded Levenberg–Marquardt from several starts. What
+/// the data leave open (the split of the compliance below macro-slip, F_S and β below full slip) is
+/// set to the middle of its range or to zero, counted in the intervals of the others, and said.
 ///
 /// # Errors
 /// [`FamilyError`]. Checked in tests/identification.rs on noise-free records of an independent
@@ -127,25 +136,16 @@ fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, Family
         });
     }
     let starts = start::starts(target, initial);
-    let free_all = [None, None];
-    let best = best_of(target, &different(&starts), free_all).ok_or(FamilyError::NoJoint)?;
-    let shape = best.shape;
-    let known = uncertainty(target, &best).ok_or(FamilyError::NoJoint)?;
-    let split_told = known.knows_share(NETWORK_SHARE);
-    let slip_told = known.knows_share(LAST_SHARE);
-    if split_told && slip_told {
-        return concluded(target, best, known, true, true);
+    let best = descent::global(target, &starts).ok_or(FamilyError::NoJoint)?;
+    let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
+    if Told::of(target, &best.shape, &known).everything() {
+        return concluded(target, best, known);
     }
-    // What is not told is set to the simplest joint, and the rest fitted once more.
-    let held = [(!split_told).then_some(1.0), (!slip_told).then_some(0.0)];
-    let simplest = Shape {
-        network_share: held[0].unwrap_or(shape.network_share),
-        last_share: held[1].unwrap_or(shape.last_share),
-        ..shape
-    };
-    let best = best_of(target, &[simplest], held).unwrap_or(best);
-    let known = uncertainty(target, &best).unwrap_or(known);
-    concluded(target, best, known, split_told, slip_told)
+    // What the data leave open is drawn softly to the middle of its range, so that it neither
+    // wanders nor drags the others along; β, where nothing at all depends on it, is zero.
+    let best = descent::settled(target, &best, &known);
+    let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
+    concluded(target, best, known)
 }
 
 /// The joint of load levels alone (an amplitude table): the power law (ϑ, χ), all compliance in the
@@ -164,14 +164,22 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
              amplitude (modal mass times acceleration), or a time history",
         );
     }
+    if !law.constant {
+        return missing(
+            "no three levels share a slope of log dissipation over log force; give more levels at \
+             smaller forces, or a time history",
+        );
+    }
     let Some(stiffness) = &seed.stiffness else {
         return missing("give the column `displacement amplitude [m]` for the stiffness");
     };
     let reference = seed.largest_force;
     let shape = Shape {
         series_stiffness: stiffness.series.value,
-        log_loss: law.coefficient.value.ln() + (law.exponent.value + 3.0) * reference.ln(),
-        reference_force: reference,
+        size: Size::Loss {
+            log: law.coefficient.value.ln() + (law.exponent.value + 3.0) * reference.ln(),
+            reference_force: reference,
+        },
         exponent: law.exponent.value,
         network_share: 1.0,
         last_share: 0.0,
@@ -179,128 +187,31 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
     Ok(joint(&shape, false)?)
 }
 
-/// A shape with the descent that led there.
-struct Best {
-    shape: Shape,
-    minimum: Minimum,
-}
-
-/// Iterations that tell the starts apart, and those of the best one.
-const FIRST: usize = 10;
-const LAST: usize = 100;
-
-/// The deepest of the descents from the starts; held shares keep their value.
-fn best_of(target: &Target, starts: &[Shape], held: [Option<f64>; 2]) -> Option<Best> {
-    let first = starts
-        .iter()
-        .filter_map(|start| descend(target, start, held, FIRST))
-        .min_by(|a, b| a.minimum.misfit().total_cmp(&b.minimum.misfit()))?;
-    if first.minimum.converged {
-        return Some(first);
+fn concluded(target: &Target, best: Best, known: Uncertainty) -> Result<FamilyFit, FamilyError> {
+    let told = Told::of(target, &best.shape, &known);
+    let shape = best.shape;
+    let samples = best.residual.len();
+    let relative_rms = best.rms();
+    let estimates = Known {
+        shape: &shape,
+        uncertainty: &known,
+        along_exponent: descent::along_exponent(target, &best, &known),
+        told,
     }
-    descend(target, &first.shape, held, LAST)
-}
-
-fn descend(
-    target: &Target,
-    start: &Shape,
-    held: [Option<f64>; 2],
-    most_iterations: usize,
-) -> Option<Best> {
-    let free = free_numbers(start, held);
-    let residuals = |numbers: &[f64]| target.residuals(&start.with(numbers));
-    let minimum = minimise(&free, most_iterations, &residuals)?;
-    Some(Best {
-        shape: start.with(&minimum.at),
-        minimum,
-    })
-}
-
-fn free_numbers(start: &Shape, held: [Option<f64>; 2]) -> Vec<Free> {
-    let at = start.numbers();
-    let free = |start: f64, lower: f64, upper: f64, step: f64| Free {
-        start,
-        lower,
-        upper,
-        step,
-    };
-    let share = |start: f64, lower: f64, upper: f64, held: Option<f64>| match held {
-        Some(value) => free(value, value, value, 1e-4),
-        None => free(start, lower, upper, 1e-4),
-    };
-    vec![
-        free(at[0], at[0] - 12.0, at[0] + 12.0, 1e-5),
-        free(at[1], at[1] - 40.0, at[1] + 40.0, 1e-4),
-        free(at[2], EXPONENT_RANGE.0, EXPONENT_RANGE.1, 1e-4),
-        share(at[NETWORK_SHARE], 1e-3, 1.0, held[0]),
-        share(at[LAST_SHARE], 0.0, 0.999, held[1]),
-    ]
-}
-
-/// A few starts that are not neighbours of a better one.
-fn different(starts: &[Shape]) -> Vec<Shape> {
-    let mut kept: Vec<Shape> = Vec::new();
-    for start in starts {
-        let near = |k: &Shape| {
-            (k.exponent - start.exponent).abs() < 0.2
-                && (k.last_share - start.last_share).abs() < 0.2
-                && (k.series_stiffness / start.series_stiffness).ln().abs() < 0.7
-        };
-        if !kept.iter().any(near) {
-            kept.push(*start);
-        }
-        if kept.len() == 4 {
-            break;
-        }
-    }
-    kept
-}
-
-/// Uncertainty over all five numbers at a minimum, held ones included.
-fn uncertainty(target: &Target, best: &Best) -> Option<Uncertainty> {
-    let residuals = |numbers: &[f64]| target.residuals(&best.shape.with(numbers));
-    let free = free_numbers(&best.shape, [None, None]);
-    let jacobian = levenberg::jacobian(&free, &best.shape.numbers(), &residuals)?;
-    let degrees = best
-        .minimum
-        .residual
-        .len()
-        .saturating_sub(shape::NUMBERS)
-        .max(1);
-    let variance = best.minimum.misfit() / degrees as f64;
-    let correlation = target.autoregression(&best.minimum.residual);
-    Uncertainty::new(
-        &jacobian,
-        variance,
-        (1.0 + correlation) / (1.0 - correlation),
-    )
-}
-
-fn concluded(
-    target: &Target,
-    best: Best,
-    known: Uncertainty,
-    split_told: bool,
-    slip_told: bool,
-) -> Result<FamilyFit, FamilyError> {
-    let Best { shape, minimum } = best;
-    let samples = minimum.residual.len();
-    let relative_rms = (minimum.misfit() / samples as f64).sqrt();
-    let mut fit = FamilyFit {
+    .estimates();
+    Ok(FamilyFit {
         drive: target.drive(),
         shape,
-        joint: joint(&shape, slip_told)?,
-        estimates: known.estimates(&shape, split_told, slip_told),
+        joint: joint(&shape, told.slip_force)?,
+        estimates,
         rms: relative_rms * target.scale(),
         relative_rms,
-        autoregression: target.autoregression(&minimum.residual),
+        autoregression: target.autoregression(&best.residual),
         samples,
-        iterations: minimum.iterations,
-        converged: minimum.converged,
-        not_identifiable: Vec::new(),
-    };
-    fit.not_identifiable = not_identifiable(target, &fit, &known, split_told, slip_told);
-    Ok(fit)
+        iterations: best.iterations,
+        converged: best.converged,
+        not_identifiable: told.sentences(target, &shape, &known, relative_rms * target.scale()),
+    })
 }
 
 /// The joint of a shape. Below full slip the two families are one and the same curve; the power law
@@ -319,49 +230,4 @@ fn joint(shape: &Shape, slip_told: bool) -> Result<Joint, JointError> {
         series_stiffness: shape.spring(),
         effects: Vec::new(),
     })
-}
-
-fn not_identifiable(
-    target: &Target,
-    fit: &FamilyFit,
-    known: &Uncertainty,
-    split_told: bool,
-    slip_told: bool,
-) -> Vec<String> {
-    let mut said = Vec::new();
-    let (channel, unit) = match target.drive() {
-        Drive::Force => ("displacement", "m"),
-        Drive::Displacement => ("force", "N"),
-    };
-    let effect = |number: usize| known.sensitivity(number) * target.scale();
-    if !slip_told {
-        said.push(format!(
-            "F_S and β: these loads do not reach the sliders that slip last. Moving F_S and β \
-             together (β from 0 to infinite at fixed ϑ, χ) changes the {channel} by {:.1e} {unit} \
-             rms against {:.1e} {unit} of misfit; the joint written takes β = 0 and extends the \
-             power law.",
-            effect(LAST_SHARE),
-            fit.rms
-        ));
-    }
-    if !split_told {
-        said.push(format!(
-            "K_1 and K_T: only K_1 K_T/(K_1+K_T) = {:.5e} N/m is told, K_T is at least that. The \
-             share of the network in the compliance changes the {channel} by {:.1e} {unit} rms \
-             over its whole range against {:.1e} {unit} of misfit; the joint written has K_1 \
-             infinite.",
-            fit.shape.series_stiffness,
-            effect(NETWORK_SHARE),
-            fit.rms
-        ));
-    }
-    let loose = known.deviation(2) > 0.25;
-    if loose {
-        said.push(format!(
-            "χ: its standard deviation is {:.2}; the loads span too little, or the noise covers \
-             the bend of the curve.",
-            known.deviation(2)
-        ));
-    }
-    said
 }

@@ -1,8 +1,8 @@
 //! Where the nonlinear fit starts: a grid over the numbers that are not linear.
 
-use super::shape::Shape;
+use super::shape::{Shape, Size};
 use super::target::Target;
-use crate::joint::Drive;
+use crate::joint::{Drive, FourParameter};
 
 /// Shapes to start from, best first.
 pub fn starts(target: &Target, initial_stiffness: Option<f64>) -> Vec<Shape> {
@@ -56,8 +56,10 @@ fn small_force(target: &Target) -> Vec<Shape> {
         for (share, last) in [(0.3, 0.0), (0.6, 0.0), (1.0, 0.0), (0.6, 0.3)] {
             found.push(Shape {
                 series_stiffness: reference / compliance,
-                log_loss: loss.ln(),
-                reference_force: reference,
+                size: Size::Loss {
+                    log: loss.ln(),
+                    reference_force: reference,
+                },
                 exponent: chi,
                 network_share: share,
                 last_share: last,
@@ -80,20 +82,24 @@ fn deep(target: &Target, initial_stiffness: Option<f64>, small: &[Shape]) -> Vec
         .or(small.first().map(|s| s.series_stiffness))
         .unwrap_or(3.0 * force / displacement);
     let mut found = Vec::new();
-    for slip_force in [0.85, 1.02, 1.3] {
+    for slip_force in [0.85, 0.95, 1.0, 1.1, 1.4] {
         for stiffer in [1.0, 3.0, 10.0] {
-            for exponent in [-0.6, -0.2, 0.3] {
+            for exponent in [-0.7, -0.4, 0.0, 0.5] {
                 for last_share in [0.02, 0.3, 0.7] {
                     for network_share in [0.4, 1.0] {
                         let joint = stiffness * stiffer;
-                        let network = crate::joint::FourParameter::new(
+                        let network = FourParameter::new(
                             slip_force * force,
                             joint / network_share,
                             exponent,
                             last_share / (1.0 - last_share),
                         );
                         let spring = joint / (1.0_f64 - network_share).max(0.0);
-                        found.extend(network.map(|n| Shape::of(&n, spring, force)));
+                        let shape = network.map(|n| Shape::of(&n, spring));
+                        found.extend(shape.map(|s| match target.drive() {
+                            Drive::Force => s.by_loss(force),
+                            Drive::Displacement => s,
+                        }));
                     }
                 }
             }

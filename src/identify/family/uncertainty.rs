@@ -1,11 +1,10 @@
 //! What the fit knows of each number, and of what follows from them.
 
-use super::shape::{LAST_SHARE, NETWORK_SHARE, NUMBERS, Shape};
-use crate::identify::interval::{Boundary, Estimated, NORMAL_95};
+use super::shape::{EXPONENT, LAST_SHARE, NETWORK_SHARE, NUMBERS, Shape};
 use nalgebra::DMatrix;
 
 /// Standard deviation of a number known only to lie between 0 and 1.
-const SHARE_UNKNOWN: f64 = 0.289;
+pub const SHARE_UNKNOWN: f64 = 0.289;
 /// Standard deviations of ln K_0, ln loss and χ before any data: so wide that they decide nothing,
 /// so that the covariance exists.
 const WIDE: [f64; 3] = [10.0, 10.0, 2.0];
@@ -59,117 +58,53 @@ impl Uncertainty {
         self.deviation(number) < 0.5 * SHARE_UNKNOWN
     }
 
+    /// True where the data say nothing at all of a share.
+    pub fn ignores_share(&self, number: usize) -> bool {
+        self.deviation(number) > 0.97 * SHARE_UNKNOWN
+    }
+
     /// Standard deviation of a function of the numbers, to first order.
-    fn of(&self, shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> f64 {
-        let at = shape.numbers();
-        let gradient: Vec<f64> = (0..NUMBERS)
-            .map(|j| {
-                let step = 1e-6;
-                let side = |sign: f64| {
-                    let mut there = at;
-                    there[j] += sign * step;
-                    if j == NETWORK_SHARE || j == LAST_SHARE {
-                        there[j] = there[j].clamp(0.0, 1.0);
-                    }
-                    (f(&shape.with(&there)), there[j])
-                };
-                let ((above, up), (below, down)) = (side(1.0), side(-1.0));
-                (above - below) / (up - down)
-            })
-            .collect();
+    pub fn of(&self, shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> f64 {
+        let gradient = gradient(shape, f);
         let mut square = 0.0;
         for a in 0..NUMBERS {
-            for b in 0..NUMBERS {
-                square += gradient[a] * gradient[b] * self.covariance[(a, b)];
-            }
+            square += gradient[a] * self.with(&gradient, a);
         }
         square.max(0.0).sqrt()
     }
 
-    /// The joint's numbers with their intervals; what was not told has none.
-    pub fn estimates(&self, shape: &Shape, split_told: bool, slip_told: bool) -> Vec<Estimated> {
-        let logarithmic = |name, symbol, unit: String, f: &dyn Fn(&Shape) -> f64, told: bool| {
-            let value = f(shape);
-            let half_width = if told && value.is_finite() {
-                NORMAL_95 * self.of(shape, &|s| f(s).ln())
-            } else {
-                f64::INFINITY
-            };
-            Estimated::logarithmic(name, symbol, unit, value, half_width)
-        };
-        let stiffness_unit = || "N/m".to_string();
-        let mut exponent = Estimated::symmetric(
-            "exponent",
-            "χ",
-            "1",
-            shape.exponent,
-            NORMAL_95 * self.deviation(2),
-        );
-        if shape.exponent <= EXPONENT_RANGE.0 {
-            exponent.at_boundary = Some(Boundary::Lower);
-        } else if shape.exponent >= EXPONENT_RANGE.1 {
-            exponent.at_boundary = Some(Boundary::Upper);
-        }
-        let mut spring = logarithmic(
-            "series_stiffness",
-            "K_1",
-            stiffness_unit(),
-            &Shape::spring,
-            split_told,
-        );
-        if shape.network_share >= 1.0 {
-            spring.at_boundary = Some(Boundary::Upper);
-            spring.interval = None;
-        }
-        let mut ratio = Estimated::symmetric(
-            "ratio",
-            "β",
-            "1",
-            shape.ratio(),
-            if slip_told {
-                NORMAL_95 * self.of(shape, &Shape::ratio)
-            } else {
-                f64::INFINITY
-            },
-        );
-        if shape.last_share <= 0.0 {
-            ratio.at_boundary = Some(Boundary::Lower);
-        }
-        vec![
-            logarithmic(
-                "joint_stiffness",
-                "K_1 K_T/(K_1+K_T)",
-                stiffness_unit(),
-                &|s: &Shape| s.series_stiffness,
-                true,
-            ),
-            logarithmic(
-                "dissipation_coefficient",
-                "ϑ",
-                format!("J/N^{:.4}", shape.exponent + 3.0),
-                &|s: &Shape| s.log_coefficient().exp(),
-                true,
-            ),
-            exponent,
-            logarithmic(
-                "stiffness",
-                "K_T",
-                stiffness_unit(),
-                &Shape::network_stiffness,
-                split_told,
-            ),
-            spring,
-            logarithmic(
-                "slip_force",
-                "F_S",
-                "N".into(),
-                &Shape::slip_force,
-                slip_told,
-            ),
-            ratio,
-        ]
+    /// The same with χ known.
+    pub fn beside_exponent(&self, shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> f64 {
+        let gradient = gradient(shape, f);
+        let shared = self.with(&gradient, EXPONENT).powi(2) / self.covariance[(EXPONENT, EXPONENT)];
+        (self.of(shape, f).powi(2) - shared).max(0.0).sqrt()
+    }
+
+    /// Covariance of a function and a number.
+    fn with(&self, gradient: &[f64; NUMBERS], number: usize) -> f64 {
+        (0..NUMBERS)
+            .map(|b| gradient[b] * self.covariance[(number, b)])
+            .sum()
     }
 }
 
-/// Range of χ in a fit: below, the loss no longer grows faster than that of a linear element.
-pub const EXPONENT_RANGE: (f64, f64) = (-0.98, 3.0);
+fn gradient(shape: &Shape, f: &dyn Fn(&Shape) -> f64) -> [f64; NUMBERS] {
+    let at = shape.numbers();
+    std::array::from_fn(|j| {
+        let step = 1e-6;
+        let side = |sign: f64| {
+            let mut there = at;
+            there[j] += sign * step;
+            if j == NETWORK_SHARE || j == LAST_SHARE {
+                there[j] = there[j].clamp(0.0, 1.0);
+            }
+            (f(&shape.with(&there)), there[j])
+        };
+        let ((above, up), (below, down)) = (side(1.0), side(-1.0));
+        (above - below) / (up - down)
+    })
+}
+
+/// Range of χ in a fit. Towards −1 the population is all at zero force and its stiffness without
+/// bound: K_0 and χ then compensate each other.
+pub const EXPONENT_RANGE: (f64, f64) = (-0.95, 3.0);

@@ -38,6 +38,9 @@ pub struct DissipationLaw {
     pub used: (usize, usize),
     /// Slopes between neighbouring levels, over all levels.
     pub local_slopes: Vec<LocalSlope>,
+    /// False where no three levels share a slope: the law is then a line through all of them, and
+    /// nothing may be built on it.
+    pub constant: bool,
     /// True where one slope serves all levels.
     pub single: bool,
 }
@@ -45,13 +48,17 @@ pub struct DissipationLaw {
 /// Largest drift of the slope over a range that still counts as constant. Over a decade of force
 /// the second-order terms of an exact power-law joint at a tenth of full slip reach this.
 const STEADY_SLOPE: f64 = 0.05;
+/// Drift that scatter may hide at most: beyond, levels that scatter so widely show no slope.
+const MOST_DRIFT: f64 = 0.3;
 /// The same for levels of one reading each, whose scatter is unknown.
 const STEADY_SLOPE_OF_READINGS: f64 = 0.2;
+/// Smallest ratio of the largest to the smallest amplitude that gives a slope.
+const LEAST_SPAN: f64 = 1.25;
 /// Smallest relative error of a loss: sampling of the loop.
 const LEAST_ERROR: f64 = 1e-3;
 
 /// The law over the longest range of levels with a constant slope, the lowest of equally long
-/// ones; over all levels where there is no such range. `None` below two levels.
+/// ones; over all levels where there is no such range. `None` below two levels, or where they lie within a quarter of each other.
 ///
 /// Checked in tests/identification.rs against planted exponents and the bolted beam's table.
 pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
@@ -84,13 +91,16 @@ pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
             STEADY_SLOPE
         };
         drift(&x[from..to], &y[from..to], &weight[from..to]).abs()
-            <= allowed + 2.0 * drift_error(&x[from..to], &error[from..to])
+            <= allowed + (2.0 * drift_error(&x[from..to], &error[from..to])).min(MOST_DRIFT)
     };
-    let (from, to) = (3..=count)
+    let range = (3..=count)
         .rev()
         .flat_map(|length| (0..=count - length).map(move |from| (from, from + length)))
-        .find(|&(from, to)| constant(from, to))
-        .unwrap_or((0, count));
+        .find(|&(from, to)| x[to - 1] - x[from] >= LEAST_SPAN.ln() && constant(from, to));
+    let (from, to) = range.unwrap_or((0, count));
+    if count < 2 || x[to - 1] - x[from] < LEAST_SPAN.ln() {
+        return None;
+    }
     let fit = line(&x[from..to], &y[from..to], &weight[from..to])?;
     let (exponent, coefficient) = estimates(&fit, over);
     Some(DissipationLaw {
@@ -100,6 +110,8 @@ pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
         range: (x[from].exp(), x[to - 1].exp()),
         used: (from, to),
         local_slopes,
+        // Two levels have one slope and no way to contradict it.
+        constant: range.is_some() || count == 2,
         single: count >= 3 && constant(0, count),
     })
 }

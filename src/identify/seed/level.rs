@@ -23,7 +23,7 @@ pub struct Level {
 }
 
 /// Relative width of a level: cycles within it are taken together.
-const SAME_LEVEL: f64 = 0.02;
+const SAME_LEVEL: f64 = 0.05;
 
 /// Levels of rising force amplitude.
 pub fn levels(points: &[CyclePoint]) -> Vec<Level> {

@@ -16,7 +16,8 @@ pub fn not_identifiable(seed: &Seed) -> Vec<String> {
                 .to_string(),
         ),
         None => said.push(format!(
-            "{} load level: the growth of the loss with load, and so χ, is not measured.",
+            "{} load level(s), too close for a slope: the growth of the loss with load, and so χ, is \
+             not measured by it.",
             seed.levels.len()
         )),
         Some(law) if law.used.1 - law.used.0 < 3 => said.push(

@@ -19,6 +19,7 @@ pub use monotonic::{Matching, Monotonic, Source, monotonic};
 pub use residual_slip::{ResidualSlip, residual_slip};
 pub use stiffness::{Stiffness, series_stiffness};
 
+use crate::record::cycles::turning_points;
 use crate::record::{AmplitudeTable, Record};
 use std::f64::consts::PI;
 
@@ -79,6 +80,9 @@ pub struct Seed {
     pub matching: Option<Matching>,
     /// Largest |F| \[N\].
     pub largest_force: f64,
+    /// How full the loops are: ∫F dU over (force amplitude × path of U), the largest of the
+    /// records; 0 elastic, 1 rigid-plastic, small in micro-slip.
+    pub fullness: f64,
     /// What a power-law joint would not do, in sentences.
     pub findings: Vec<String>,
     /// What the data do not reach, in sentences.
@@ -107,17 +111,22 @@ pub fn of_records(records: &[&Record]) -> Result<Seed, SeedError> {
     let mut seed = Seed {
         levels: levels(&points),
         largest_force,
+        fullness: records.iter().map(|r| fullness(r)).fold(0.0, f64::max),
         ..Seed::default()
     };
     seed.dissipation = dissipation_law(&seed.levels, Over::Force);
     seed.stiffness = stiffness_of(&seed);
-    if let Some(law) = &seed.dissipation {
+    let law = seed.dissipation.clone().filter(|law| law.constant);
+    if let Some(law) = &law {
         seed.residual_slip = residual_slip(&seed.levels, law);
     }
     seed.monotonic = monotonic(records, &points);
-    if let (Some(curve), Some(law), Some(stiffness)) =
-        (&seed.monotonic, &seed.dissipation, &seed.stiffness)
+    if law.is_none()
+        && let Some(curve) = &seed.monotonic
     {
+        seed.stiffness = Some(stiffness::of_curve(curve));
+    }
+    if let (Some(curve), Some(law), Some(stiffness)) = (&seed.monotonic, &law, &seed.stiffness) {
         let join = law.range.1.min(0.5 * curve.force[curve.force.len() - 1]);
         seed.matching = curve.matching(
             law.coefficient.value,
@@ -162,8 +171,8 @@ fn concluded(mut seed: Seed) -> Seed {
 
 fn stiffness_of(seed: &Seed) -> Option<Stiffness> {
     let (exponent, used) = match &seed.dissipation {
-        Some(law) => (law.exponent.value, law.used.1),
-        None => (0.0, 1),
+        Some(law) if law.constant => (law.exponent.value, law.used.1),
+        _ => (0.0, 1),
     };
     series_stiffness(&seed.levels, exponent, used)
 }
@@ -179,6 +188,23 @@ fn at_resonance(levels: &[Level]) -> bool {
         any = true;
         sine > 0.8
     }) && any
+}
+
+/// ∫F dU over the path of U times the force amplitude; for a settled loop `D/(4 F_0 U_0)`.
+fn fullness(record: &Record) -> f64 {
+    let (force, displacement) = (&record.force, &record.displacement);
+    let high = force.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = force.iter().copied().fold(f64::INFINITY, f64::min);
+    let mid = 0.5 * (high + low);
+    let work: f64 = (1..force.len())
+        .map(|i| (0.5 * (force[i] + force[i - 1]) - mid) * (displacement[i] - displacement[i - 1]))
+        .sum();
+    let path: f64 = turning_points(displacement, 0.02)
+        .windows(2)
+        .map(|pair| (displacement[pair[1]] - displacement[pair[0]]).abs())
+        .sum();
+    let whole = 0.5 * (high - low) * path;
+    if whole > 0.0 { work / whole } else { 0.0 }
 }
 
 fn sound(record: &Record) -> Result<(), SeedError> {

@@ -2,6 +2,7 @@
 
 use super::level::Level;
 use super::line::line;
+use super::monotonic::Monotonic;
 use crate::identify::interval::Estimated;
 
 /// The secant compliance of the levels against the load.
@@ -48,4 +49,21 @@ pub fn series_stiffness(levels: &[Level], exponent: f64, used: usize) -> Option<
         ),
         reach: largest / compliance,
     })
+}
+
+/// From the first piece of a monotonic curve, where there are no levels to extrapolate: a secant of
+/// some width, so a lower bound, and without interval.
+pub fn of_curve(curve: &Monotonic) -> Stiffness {
+    let first = curve.force[1] / curve.displacement[1];
+    let last = curve.force.len() - 1;
+    Stiffness {
+        series: Estimated::logarithmic(
+            "joint_stiffness",
+            "K_1 K_T/(K_1+K_T)",
+            "N/m",
+            first,
+            f64::INFINITY,
+        ),
+        reach: first * curve.displacement[last] / curve.force[last],
+    }
 }

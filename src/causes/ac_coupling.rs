@@ -1,0 +1,113 @@
+//! `ac_coupling`: the displacement channel forgets what stands still.
+
+use super::creep::lag;
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::parameters::Parameter;
+
+/// A first-order high-pass, `U_meas = U − l` with `l̇ = 2π f_c (U − l)`, solved exactly for a
+/// displacement that goes straight from sample to sample.
+pub struct AcCoupling;
+
+static PARAMETERS: [Parameter; 1] = [Parameter {
+    name: "corner_frequency",
+    symbol: "f_c",
+    unit: "Hz",
+    lower: 0.0,
+    upper: 1e4,
+    vanishes_at: Some(0.0),
+    meaning: "frequency below which the channel loses the displacement",
+}];
+
+impl Effect for AcCoupling {
+    fn name(&self) -> &'static str {
+        "ac_coupling"
+    }
+    fn place(&self) -> Place {
+        Place::DisplacementChannel
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let rate = std::f64::consts::TAU * values[0];
+        let mut lost = 0.0;
+        let mut before = None;
+        let samples = truth.time.iter().zip(&truth.displacement);
+        samples
+            .map(|(&time, &displacement)| {
+                if let Some((earlier, from)) = before {
+                    let [kept, old, new] = lag(rate * (time - earlier));
+                    lost = kept * lost + old * from + new * displacement;
+                }
+                before = Some((time, displacement));
+                -lost
+            })
+            .collect()
+    }
+}
+
+impl Cause for AcCoupling {
+    fn page(&self) -> Page {
+        Page {
+            happens: "The amplifier is AC-coupled, or the sensor (piezoelectric, velocity integrated) answers to changes only: slow parts of the displacement leak away.",
+            sign: "Held displacements and mean values fade to zero by the exponential; slow loops are turned ahead of the force and can enclose negative area; fast ones are right.",
+            mistaken_for: &[
+                "creep",
+                "sensor_delay",
+                "displacement_drift",
+                "viscous_damping",
+            ],
+            separated_by: "A hold under load: the reading comes back to zero here and goes on with creep; two decades of frequency: the phase lead falls with frequency while that of a delay grows; a dummy specimen.",
+            formula: "U_measured = U - l, dl/dt = 2 pi f_c (U - l)",
+            source: "First-order high-pass of an AC-coupled or charge amplifier.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &AcCoupling
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        vec![vec![0.002 / scale.period]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_displacement_fades_by_the_exponential() {
+        let time: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
+        let truth = Trajectory {
+            displacement: vec![3.0; time.len()],
+            force: vec![],
+            time,
+        };
+        let added = AcCoupling.channel(&[0.5], &truth);
+        for (added, t) in added.iter().zip(&truth.time) {
+            let left = (-std::f64::consts::PI * t).exp();
+            assert!((3.0 + added - 3.0 * left).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_fast_sine_keeps_its_size_and_a_slow_one_leads() {
+        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+        let rate = std::f64::consts::TAU * 0.2; // the corner itself
+        let truth = Trajectory {
+            displacement: time.iter().map(|t| (rate * t).sin()).collect(),
+            force: vec![],
+            time,
+        };
+        let added = AcCoupling.channel(&[0.2], &truth);
+        let samples = truth.time.iter().zip(&truth.displacement).zip(&added);
+        for ((time, displacement), added) in samples.skip(3000) {
+            let phase = rate * time + std::f64::consts::FRAC_PI_4;
+            // At the corner a high-pass leaves 1/√2 and leads by an eighth of a cycle.
+            assert!((displacement + added - phase.sin() / 2.0_f64.sqrt()).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! `fixture_inertia`: mass between load cell and joint.
+
+use super::sensor_delay::displacement_at;
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::parameters::Parameter;
+
+/// The load cell reads the force that moves a mass as well, `F_meas = F + m Ü`.
+pub struct FixtureInertia;
+
+static PARAMETERS: [Parameter; 1] = [Parameter {
+    name: "mass",
+    symbol: "m",
+    unit: "kg",
+    lower: 0.0,
+    upper: 1e6,
+    vanishes_at: Some(0.0),
+    meaning: "moving mass between the load cell and the joint",
+}];
+
+/// Share of the joint's own stiffness that the mass may add at any frequency. Motion beyond the
+/// resonance of mass and joint is noise: were it resolved, taking `m Ü` off a measured force would
+/// raise that noise each time.
+const SHARE: f64 = 0.4;
+
+/// Ü \[m/s²\] by second differences over a reach of `√(4m/(SHARE K))`, at least a sample, with the
+/// loss that such a difference has at the motion's own frequency made good.
+fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
+    let (time, displacement) = (&truth.time, &truth.displacement);
+    let count = time.len();
+    let (moved, pushed) = (moves(displacement), moves(&truth.force));
+    if count < 3 || moved == 0.0 {
+        return vec![0.0; count];
+    }
+    let reach = (4.0 * mass / SHARE * (moved / pushed).sqrt()).sqrt();
+    let reach = reach.min(0.25 * (time[count - 1] - time[0]));
+    let half = (0.5 * reach * frequency(truth)).min(1.0);
+    let made_good = if half > 0.0 {
+        (half / half.sin()).powi(2)
+    } else {
+        1.0
+    };
+    (0..count)
+        .map(|sample| {
+            let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
+            let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
+            // Constant within a reach of either end.
+            let middle = time[sample]
+                .max(time[0] + reach)
+                .min(time[count - 1] - reach);
+            let at = |shift| displacement_at(truth, middle + shift);
+            made_good * (at(reach) - 2.0 * at(0.0) + at(-reach)) / (reach * reach)
+        })
+        .collect()
+}
+
+/// Sum of squares of the moves from sample to sample.
+fn moves(channel: &[f64]) -> f64 {
+    channel
+        .windows(2)
+        .map(|two| (two[1] - two[0]).powi(2))
+        .sum()
+}
+
+/// The motion's own frequency \[rad/s\]: ratio of its rate to its size, in the mean of squares.
+fn frequency(truth: &Trajectory) -> f64 {
+    let count = truth.displacement.len() as f64;
+    let mean = truth.displacement.iter().sum::<f64>() / count;
+    let (mut size, mut rate) = (0.0, 0.0);
+    for (time, u) in truth.time.windows(2).zip(truth.displacement.windows(2)) {
+        let length = time[1] - time[0];
+        size += (u[0] - mean).powi(2) * length;
+        rate += (u[1] - u[0]).powi(2) / length;
+    }
+    (rate / size).sqrt()
+}
+
+impl Effect for FixtureInertia {
+    fn name(&self) -> &'static str {
+        "fixture_inertia"
+    }
+    fn place(&self) -> Place {
+        Place::ForceChannel
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        acceleration(values[0], truth)
+            .iter()
+            .map(|a| values[0] * a)
+            .collect()
+    }
+}
+
+impl Cause for FixtureInertia {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Grips, adapters or half of the specimen move between the load cell and the joint; the cell reads the force that accelerates them too.",
+            sign: "Loops tilt with the square of the frequency and keep their area: less force at the turning points than at slow rates; peaks in force where the motion is jerky.",
+            mistaken_for: &["sensor_delay", "quadratic_damping", "creep"],
+            separated_by: "Two frequencies: stiffness falls with the square of the frequency and the area stays; a delay changes the area; an accelerometer at the grip, or a run without specimen, gives the mass itself.",
+            formula: "F_measured = F + m d2U/dt2",
+            source: "Newton; inertia correction of dynamic load cells, ISO 4965.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &FixtureInertia
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        let acceleration = scale.velocity * scale.velocity / scale.displacement;
+        vec![vec![0.002 * scale.force / acceleration]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sine_is_accelerated_by_its_frequency_squared() {
+        let time: Vec<f64> = (0..4000).map(|i| 1e-3 * f64::from(i)).collect();
+        let truth = Trajectory {
+            displacement: time.iter().map(|t| 2e-6 * (20.0 * t).sin()).collect(),
+            force: time.iter().map(|t| 50.0 * (20.0 * t).sin()).collect(),
+            time,
+        };
+        // From nothing to a tenth of the force, where the reach is a radian.
+        for mass in [1.0, 300.0, 6250.0] {
+            let added = FixtureInertia.channel(&[mass], &truth);
+            for (added, u) in added.iter().zip(&truth.displacement).skip(60).take(3800) {
+                // The record holds no whole number of cycles: its frequency is known to 0.1 %.
+                assert!((added + mass * 400.0 * u).abs() < 1e-3 * mass * 400.0 * 2e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn rest_and_short_records_have_none() {
+        let still = |count| Trajectory {
+            time: (0..count).map(|i| i as f64).collect(),
+            force: vec![0.0; count],
+            displacement: vec![5.0; count],
+        };
+        for count in [0, 1, 2, 3, 50] {
+            assert_eq!(
+                FixtureInertia.channel(&[3.0], &still(count)),
+                vec![0.0; count]
+            );
+        }
+    }
+}

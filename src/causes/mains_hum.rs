@@ -1,0 +1,118 @@
+//! `mains_hum`: the displacement channel picks up the mains.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::parameters::Parameter;
+
+/// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`, t from the
+/// middle of the record so that phase and frequency do not mix.
+pub struct MainsHum;
+
+static PARAMETERS: [Parameter; 3] = [
+    Parameter {
+        name: "sine",
+        symbol: "a",
+        unit: "m",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        meaning: "amplitude of the part that is zero in the middle of the record",
+    },
+    Parameter {
+        name: "cosine",
+        symbol: "b",
+        unit: "m",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        meaning: "amplitude of the part that is largest in the middle of the record",
+    },
+    Parameter {
+        name: "frequency",
+        symbol: "f",
+        unit: "Hz",
+        lower: 49.0,
+        upper: 61.0,
+        vanishes_at: None,
+        meaning: "frequency of the mains; shows at its alias where the record is sampled too slowly",
+    },
+];
+
+impl Effect for MainsHum {
+    fn name(&self) -> &'static str {
+        "mains_hum"
+    }
+    fn place(&self) -> Place {
+        Place::DisplacementChannel
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let (Some(start), Some(end)) = (truth.time.first(), truth.time.last()) else {
+            return Vec::new();
+        };
+        let middle = 0.5 * (start + end);
+        let hum = |t: &f64| {
+            let (sine, cosine) = (std::f64::consts::TAU * values[2] * (t - middle)).sin_cos();
+            values[0] * sine + values[1] * cosine
+        };
+        truth.time.iter().map(hum).collect()
+    }
+}
+
+impl Cause for MainsHum {
+    fn page(&self) -> Page {
+        Page {
+            happens: "A ground loop or an unshielded cable lets the mains into the displacement channel.",
+            sign: "A sine of 50 or 60 Hz, or of its alias, under everything: in holds too, whatever the load; loops ripple and their ripples do not repeat from cycle to cycle.",
+            mistaken_for: &["displacement_drift", "offset_step"],
+            separated_by: "Its spectrum is one line that stays where it is when the drive changes; an alias near the cycle's own rate looks like drift until the record is sampled faster.",
+            formula: "U_measured = U + a sin(2 pi f t) + b cos(2 pi f t)",
+            source: "Interference of the mains, nominally 50 or 60 Hz.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &MainsHum
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        // A phase between two of these is 30 degrees from the nearer: three quarters of its fall.
+        let amplitude = 0.002 * scale.displacement;
+        [50.0_f64, 60.0]
+            .iter()
+            .flat_map(|frequency| {
+                [15.0_f64, 75.0, 135.0].map(|degrees| {
+                    let (sine, cosine) = degrees.to_radians().sin_cos();
+                    vec![amplitude * sine, amplitude * cosine, *frequency]
+                })
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_the_sine_of_its_frequency_about_the_middle() {
+        let truth = Trajectory {
+            time: (0..=40).map(|i| 3.0 + 0.001 * f64::from(i)).collect(),
+            force: vec![],
+            displacement: vec![0.0; 41],
+        };
+        let added = MainsHum.channel(&[2.0, 0.5, 50.0], &truth);
+        // The middle, a quarter and a half period of 20 ms later.
+        for (sample, expected) in [(20, 0.5), (25, 2.0), (30, -0.5)] {
+            assert!((added[sample] - expected).abs() < 1e-9);
+        }
+        assert!(
+            MainsHum
+                .channel(&[2.0, 0.5, 50.0], &Trajectory::default())
+                .is_empty()
+        );
+    }
+}

@@ -1,0 +1,121 @@
+//! `offset_step`: the displacement reading jumps once.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::parameters::Parameter;
+
+/// The sensor's zero moves by a height at a time, `U_meas = U + (h/2)[1 + tanh(2 (t − t_0)/w)]`,
+/// over a length `w = T exp(−p)` of a record of length T, and no less than a sample.
+///
+/// A refit that begins with a slow jump finds its time from afar; the logarithm keeps it from
+/// sharpening faster than it comes near.
+pub struct OffsetStep;
+
+/// A jump over a twelfth of the record; a longer one is a drift.
+const SLOWEST: f64 = 2.5;
+
+static PARAMETERS: [Parameter; 3] = [
+    Parameter {
+        name: "height",
+        symbol: "h",
+        unit: "m",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        meaning: "displacement by which the reading jumps",
+    },
+    Parameter {
+        name: "time",
+        symbol: "t_0",
+        unit: "s",
+        lower: 0.0,
+        upper: 1e9,
+        vanishes_at: None,
+        meaning: "time of the jump from the start of the record",
+    },
+    Parameter {
+        name: "sharpness",
+        symbol: "p",
+        unit: "1",
+        lower: SLOWEST,
+        upper: 16.0,
+        vanishes_at: None,
+        meaning: "natural logarithm of the record's length over that of the jump",
+    },
+];
+
+impl Effect for OffsetStep {
+    fn name(&self) -> &'static str {
+        "offset_step"
+    }
+    fn place(&self) -> Place {
+        Place::DisplacementChannel
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let [height, jump, sharpness] = [values[0], values[1], values[2]];
+        let (Some(start), Some(end)) = (truth.time.first(), truth.time.last()) else {
+            return Vec::new();
+        };
+        let sample = (end - start) / truth.time.len() as f64;
+        let length = (end - start) * (-sharpness).exp();
+        let width = length.hypot(sample).max(f64::MIN_POSITIVE);
+        let share = |t: &f64| 0.5 + 0.5 * (2.0 * (t - start - jump) / width).tanh();
+        truth.time.iter().map(|t| height * share(t)).collect()
+    }
+}
+
+impl Cause for OffsetStep {
+    fn page(&self) -> Page {
+        Page {
+            happens: "A target, clip or cable is knocked, a counter misses pulses or a range is switched: the zero of the displacement moves at once and stays.",
+            sign: "Loops before and after are the same in shape and apart by a constant; the jump takes no more than a moment and needs no force.",
+            mistaken_for: &["displacement_drift", "running_in", "creep", "preload_loss"],
+            separated_by: "Repeated equal blocks: a drift goes on at a steady rate, this is done at once; stiffness and area stay as they were. A specimen that settles at a force peak is told by its time at the peak.",
+            formula: "U_measured = U + (h/2) [1 + tanh(2 (t - t_0)/w)], w = T exp(-p)",
+            source: "Step change of a sensor's zero.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &OffsetStep
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        (0..8)
+            .map(|k| {
+                let time = (f64::from(k) + 0.5) / 8.0 * scale.duration;
+                vec![0.005 * scale.displacement, time, SLOWEST]
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_rises_from_nothing_to_its_height_within_a_few_samples() {
+        let truth = Trajectory {
+            time: (0..101).map(|i| 5.0 + 0.1 * f64::from(i)).collect(),
+            force: vec![],
+            displacement: vec![0.0; 101],
+        };
+        let added = OffsetStep.channel(&[2.0, 4.0, 16.0], &truth);
+        assert!((added[40] - 1.0).abs() < 1e-12);
+        assert!(added[35].abs() < 1e-6 && (added[45] - 2.0).abs() < 1e-6);
+        let slow = OffsetStep.channel(&[2.0, 4.0, SLOWEST], &truth);
+        let width = (10.0 * (-SLOWEST).exp()).hypot(10.0 / 101.0);
+        let expected = 1.0 + (2.0_f64 * 0.5 / width).tanh();
+        assert!((slow[45] - expected).abs() < 1e-12);
+        assert!(
+            OffsetStep
+                .channel(&[2.0, 4.0, 16.0], &Trajectory::default())
+                .is_empty()
+        );
+    }
+}

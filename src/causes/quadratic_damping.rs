@@ -1,0 +1,73 @@
+//! `quadratic_damping`: a drag that grows with the square of the rate.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::parameters::Parameter;
+
+/// A force proportional to the rate of the total displacement times its magnitude,
+/// `F_q = c U̇ |U̇|`.
+pub struct QuadraticDamping;
+
+static PARAMETERS: [Parameter; 1] = [Parameter {
+    name: "coefficient",
+    symbol: "c_q",
+    unit: "N.s2/m2",
+    lower: 0.0,
+    upper: 1e18,
+    vanishes_at: Some(0.0),
+    meaning: "force per square of the rate of the total displacement",
+}];
+
+impl Effect for QuadraticDamping {
+    fn name(&self) -> &'static str {
+        "quadratic_damping"
+    }
+    fn place(&self) -> Place {
+        Place::BesideJoint
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn beside_joint(&self, values: &[f64], _displacement: f64, velocity: f64) -> Response {
+        Response {
+            value: values[0] * velocity * velocity.abs(),
+            slope: 0.0,
+            damping: 2.0 * values[0] * velocity.abs(),
+        }
+    }
+}
+
+impl Cause for QuadraticDamping {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Fluid driven through a gap, a port or around an edge separates and resists with the square of its rate, as in a damper with an orifice.",
+            sign: "Loops open at mid-stroke as with a dashpot, but the extra dissipation per cycle grows with the square of frequency and the cube of the amplitude; third harmonic in force at high rates, nothing at low ones.",
+            mistaken_for: &["viscous_damping", "fixture_inertia", "sensor_delay"],
+            separated_by: "A grid of amplitude and frequency: the loss goes with A^3 f^2 where a dashpot has A^2 f, and the stiffness stays while a mass lowers it with f^2.",
+            formula: "F = F_joint + c_q |dU/dt| dU/dt",
+            source: "Drag and orifice loss at high Reynolds number; equivalent damping of a velocity-squared law (Jacobsen 1930).",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &QuadraticDamping
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        vec![vec![0.01 * scale.force / scale.velocity.powi(2)]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_follows_the_square_and_the_sign_of_the_rate() {
+        let at = |velocity| QuadraticDamping.beside_joint(&[3.0], 9.0, velocity);
+        assert_eq!((at(2.0).value, at(-2.0).value), (12.0, -12.0));
+        assert_eq!((at(2.0).damping, at(-2.0).damping), (12.0, 12.0));
+        assert_eq!(at(0.0), Response::default());
+    }
+}

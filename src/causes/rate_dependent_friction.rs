@@ -1,0 +1,135 @@
+//! `rate_dependent_friction`: friction grows with the logarithm of the slip rate.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::parameters::Parameter;
+
+/// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + |v|/v_0)`, where v follows u̇ over
+/// a memory of slip, see [`follow_rate`].
+pub struct RateDependentFriction;
+
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "gain",
+        symbol: "a",
+        unit: "1",
+        lower: 0.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        meaning: "relative growth of the break-free forces per e-fold of the slip rate",
+    },
+    Parameter {
+        name: "reference_rate",
+        symbol: "v_0",
+        unit: "m/s",
+        lower: 1e-15,
+        upper: 1e3,
+        vanishes_at: None,
+        meaning: "slip rate below which friction no longer falls",
+    },
+];
+
+/// Slip over which contacts take on a new rate, as a share of the widest slip so far.
+const RENEWAL: f64 = 0.1;
+
+/// Numbers of history that [`follow_rate`] keeps.
+pub(super) const RATE_MEMORY: usize = 3;
+
+/// Takes a sample into the history `[v, lowest u, highest u]`: v approaches the slip rate over a
+/// slip of [`RENEWAL`], `v += (u̇ − v)(1 − exp(−|Δu|/d))`.
+///
+/// Contacts renew themselves over a slip distance (Dieterich's memory); the limit that this sample
+/// answers with is known only in the next one, and without a memory it would swing from step to
+/// step.
+pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
+    if let [rate, low, high] = memory {
+        *low = low.min(now.slip);
+        *high = high.max(now.slip);
+        let renewal = RENEWAL * (*high - *low);
+        if renewal > 0.0 {
+            let renewed = -(-(now.slip_rate * now.step).abs() / renewal).exp_m1();
+            *rate += renewed * (now.slip_rate - *rate);
+        }
+    }
+}
+
+impl Effect for RateDependentFriction {
+    fn name(&self) -> &'static str {
+        "rate_dependent_friction"
+    }
+    fn place(&self) -> Place {
+        Place::SlipLimit
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn memory(&self) -> usize {
+        RATE_MEMORY
+    }
+    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_rate(now, memory);
+    }
+    fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
+        let limit = 1.0 + values[0] * (memory[0].abs() / values[1]).ln_1p();
+        SlipLimit {
+            positive: limit,
+            negative: limit,
+        }
+    }
+}
+
+impl Cause for RateDependentFriction {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Contacts strengthen with the rate at which they are sheared, as polymers, coatings and thin films do: a little for every e-fold of slip rate.",
+            sign: "Loops of the same force narrow with frequency by the same step per decade; tips are rounded because slip goes on while the rate falls.",
+            mistaken_for: &[
+                "viscous_damping",
+                "velocity_weakening",
+                "creep",
+                "sensor_delay",
+            ],
+            separated_by: "Two decades of frequency: steps are equal per decade here and proportional to frequency with a dashpot, and the effect is absent below slip; weakening has the other sign.",
+            formula: "phi = phi_0 [1 + a ln(1 + |v|/v_0)], v following du/dt over a slip distance",
+            source: "Direct effect of rate-and-state friction, Dieterich 1979 and Ruina 1983, regularised at rest.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &RateDependentFriction
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        [1e-3, 0.03, 0.5]
+            .iter()
+            .map(|share| vec![0.005, share * scale.velocity])
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_grows_with_the_logarithm_of_a_rate_held() {
+        let (values, mut memory) = ([0.1, 1e-3], [0.0; RATE_MEMORY]);
+        assert_eq!(
+            RateDependentFriction.slip_limit(&values, &Situation::default(), &memory),
+            SlipLimit::UNCHANGED
+        );
+        for sample in 1..=2000 {
+            let now = Situation {
+                step: 0.01,
+                slip: 1e-5 * f64::from(sample),
+                slip_rate: 1e-3,
+                ..Situation::default()
+            };
+            RateDependentFriction.remember(&values, &now, &mut memory);
+        }
+        let limit = RateDependentFriction.slip_limit(&values, &Situation::default(), &memory);
+        assert!((limit.positive - (1.0 + 0.1 * 2.0_f64.ln())).abs() < 1e-9);
+        assert_eq!(limit.positive, limit.negative);
+    }
+}

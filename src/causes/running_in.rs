@@ -1,0 +1,89 @@
+//! `running_in`: friction grows to its lasting value within the first cycles.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::parameters::Parameter;
+
+/// Break-free forces grow with the energy dissipated, `n = 1 − a exp(−E/E_0)`.
+pub struct RunningIn;
+
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "deficit",
+        symbol: "a",
+        unit: "1",
+        lower: 0.0,
+        upper: 0.98,
+        vanishes_at: Some(0.0),
+        meaning: "share of the break-free forces that the fresh surfaces lack",
+    },
+    Parameter {
+        name: "energy",
+        symbol: "E_0",
+        unit: "J",
+        lower: 1e-15,
+        upper: 1e12,
+        vanishes_at: None,
+        meaning: "dissipated energy over which the surfaces settle",
+    },
+];
+
+impl Effect for RunningIn {
+    fn name(&self) -> &'static str {
+        "running_in"
+    }
+    fn place(&self) -> Place {
+        Place::SlipLimit
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
+        let limit = 1.0 - values[0] * (-last.dissipation / values[1]).exp();
+        SlipLimit {
+            positive: limit,
+            negative: limit,
+        }
+    }
+}
+
+impl Cause for RunningIn {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Films and peaks of fresh surfaces wear off in the first cycles; contact spreads, friction grows and then stays.",
+            sign: "The first loops are wider and softer than the later ones of the same load; the change dies out and does not come back after a pause.",
+            mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
+            separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls and then settles is preload loss with a short energy.",
+            formula: "phi = phi_0 [1 - a exp(-E/E_0)]",
+            source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy as the measure of work (Fouvry; Schwingshackl et al. 2012).",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &RunningIn
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        [0.01, 0.05, 0.2, 0.8]
+            .iter()
+            .map(|share| vec![0.05, share * scale.dissipation])
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_grows_from_its_deficit_to_one() {
+        let at = |dissipation| {
+            let last = Situation {
+                dissipation,
+                ..Situation::default()
+            };
+            RunningIn.slip_limit(&[0.4, 2.0], &last, &[]).positive
+        };
+        assert_eq!(at(0.0), 0.6);
+        assert!((at(2.0) - (1.0 - 0.4 / std::f64::consts::E)).abs() < 1e-15);
+        assert_eq!(at(2000.0), 1.0);
+    }
+}

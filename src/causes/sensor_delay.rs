@@ -1,0 +1,129 @@
+//! `sensor_delay`: the displacement channel lags or leads the force channel.
+
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::parameters::Parameter;
+
+/// The displacement is read late, `U_meas(t) = U(t − τ)`; a negative τ means that the force is.
+pub struct SensorDelay;
+
+static PARAMETERS: [Parameter; 1] = [Parameter {
+    name: "delay",
+    symbol: "tau",
+    unit: "s",
+    lower: -10.0,
+    upper: 10.0,
+    vanishes_at: Some(0.0),
+    meaning: "time by which the displacement channel lags the force channel",
+}];
+
+/// U at `time` by cubic pieces through the samples with slopes of their neighbours; before the
+/// record the joint was at rest, after it the last piece goes straight on.
+pub(super) fn displacement_at(truth: &Trajectory, time: f64) -> f64 {
+    let (t, u) = (&truth.time, &truth.displacement);
+    let last = t.len() - 1;
+    let after = t.partition_point(|&sample| sample <= time);
+    if after == 0 {
+        return u[0];
+    }
+    let slope = |i: usize| {
+        let (low, high) = (i.saturating_sub(1), (i + 1).min(last));
+        let length = t[high] - t[low];
+        if length > 0.0 {
+            (u[high] - u[low]) / length
+        } else {
+            0.0
+        }
+    };
+    let i = after - 1;
+    if i == last {
+        return u[last] + slope(last) * (time - t[last]);
+    }
+    let length = t[i + 1] - t[i];
+    let x = (time - t[i]) / length;
+    let bend = [slope(i) * length, slope(i + 1) * length];
+    let rise = u[i + 1] - u[i];
+    let cubic = bend[0] + bend[1] - 2.0 * rise;
+    let square = 3.0 * rise - 2.0 * bend[0] - bend[1];
+    u[i] + x * (bend[0] + x * (square + x * cubic))
+}
+
+impl Effect for SensorDelay {
+    fn name(&self) -> &'static str {
+        "sensor_delay"
+    }
+    fn place(&self) -> Place {
+        Place::DisplacementChannel
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let samples = truth.time.iter().zip(&truth.displacement);
+        samples
+            .map(|(t, u)| displacement_at(truth, t - values[0]) - u)
+            .collect()
+    }
+}
+
+impl Cause for SensorDelay {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Filters, multiplexed sampling or a slow amplifier let one channel lag the other.",
+            sign: "Loops open or close in proportion to frequency, elastic ones too; a lagging force channel can turn the sense of small loops, which no joint does.",
+            mistaken_for: &["viscous_damping", "creep", "fixture_inertia"],
+            separated_by: "Deep slip, where the joint's compliance changes and a delay does not; two decades of frequency; swapped channels or a dummy specimen, which has no loss of its own.",
+            formula: "U_measured(t) = U(t - tau)",
+            source: "Pure time delay of a measuring chain; a phase of 0.18 degrees at the drive already moves the slope of dissipation over force from 2.69 to 2.47.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &SensorDelay
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        vec![vec![0.002 * scale.period]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sine_is_read_late_or_early_by_parts_of_a_sample() {
+        let time: Vec<f64> = (0..1000).map(|i| 0.01 * f64::from(i)).collect();
+        let truth = Trajectory {
+            displacement: time.iter().map(|t| (3.0 * t).sin()).collect(),
+            force: vec![],
+            time,
+        };
+        for delay in [0.004, 0.01, 0.037, -0.004, -0.02] {
+            let added = SensorDelay.channel(&[delay], &truth);
+            for (i, t) in truth.time.iter().enumerate().skip(5).take(990) {
+                let exact = (3.0 * (t - delay)).sin() - (3.0 * t).sin();
+                // Cubic pieces with slopes by differences err by (ω Δt)³/8 of the amplitude.
+                assert!((added[i] - exact).abs() < 4e-6, "{delay} at {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_known_before_the_record() {
+        let truth = Trajectory {
+            time: vec![1.0, 2.0, 3.0],
+            force: vec![],
+            displacement: vec![0.5, 1.5, 3.5],
+        };
+        assert_eq!(SensorDelay.channel(&[5.0], &truth), [0.0, -1.0, -3.0]);
+        assert_eq!(SensorDelay.channel(&[-1.0], &truth)[2], 2.0);
+        assert_eq!(SensorDelay.channel(&[0.0], &truth), [0.0; 3]);
+        assert!(
+            SensorDelay
+                .channel(&[1.0], &Trajectory::default())
+                .is_empty()
+        );
+    }
+}

@@ -1,0 +1,104 @@
+//! `velocity_weakening`: friction falls with the slip rate (Stribeck).
+
+use super::rate_dependent_friction::{RATE_MEMORY, follow_rate};
+use super::{Cause, Page, Scale};
+use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::parameters::Parameter;
+
+/// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−|v|/v_s)]`, where v follows u̇
+/// over a memory of slip.
+pub struct VelocityWeakening;
+
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "drop",
+        symbol: "a",
+        unit: "1",
+        lower: 0.0,
+        upper: 0.95,
+        vanishes_at: Some(0.0),
+        meaning: "share of the break-free forces that is lost at high slip rate",
+    },
+    Parameter {
+        name: "stribeck_rate",
+        symbol: "v_s",
+        unit: "m/s",
+        lower: 1e-15,
+        upper: 1e3,
+        vanishes_at: None,
+        meaning: "slip rate over which friction falls",
+    },
+];
+
+impl Effect for VelocityWeakening {
+    fn name(&self) -> &'static str {
+        "velocity_weakening"
+    }
+    fn place(&self) -> Place {
+        Place::SlipLimit
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        &PARAMETERS
+    }
+    fn memory(&self) -> usize {
+        RATE_MEMORY
+    }
+    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_rate(now, memory);
+    }
+    fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
+        let limit = 1.0 + values[0] * (-memory[0].abs() / values[1]).exp_m1();
+        SlipLimit {
+            positive: limit,
+            negative: limit,
+        }
+    }
+}
+
+impl Cause for VelocityWeakening {
+    fn page(&self) -> Page {
+        Page {
+            happens: "Sliding surfaces lose contact time or float on a film: the faster they slide, the less they hold.",
+            sign: "Loops of the same force widen with frequency; friction is low at mid-stroke and comes back at the tips, which stay sharp; at slow rates the baseline is exact.",
+            mistaken_for: &[
+                "static_friction_drop",
+                "rate_dependent_friction",
+                "viscous_damping",
+                "creep",
+            ],
+            separated_by: "The same stroke at several frequencies: a drop after breakaway follows slid distance and stays the same, weakening follows the rate; growth with rate has the other sign.",
+            formula: "phi = phi_0 [1 - a (1 - exp(-|v|/v_s))], v following du/dt over a slip distance",
+            source: "Stribeck curve as in Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994.",
+        }
+    }
+    fn effect(&self) -> &'static dyn Effect {
+        &VelocityWeakening
+    }
+    fn needs_time(&self) -> bool {
+        true
+    }
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        [0.03, 0.15, 0.6]
+            .iter()
+            .map(|share| vec![0.02, share * scale.velocity])
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_falls_with_the_rate_to_what_is_left() {
+        let at = |rate| {
+            let memory = [rate, 0.0, 1.0];
+            VelocityWeakening.slip_limit(&[0.4, 2.0], &Situation::default(), &memory)
+        };
+        assert_eq!(at(0.0), SlipLimit::UNCHANGED);
+        let expected = 1.0 - 0.4 * (1.0 - (-0.5_f64).exp());
+        assert!((at(-1.0).positive - expected).abs() < 1e-15);
+        assert_eq!(at(1.0), at(-1.0));
+        assert!((at(1e9).negative - 0.6).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,281 @@
+//! `iwan export`: the archive, and every way in which it is refused.
+
+use iwan::joint::Drive;
+use iwan::variables::guid;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const JOINT: &str = include_str!("../examples/table1_case1.json");
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("export ü {name}"));
+    let _ = std::fs::remove_dir_all(&path); // of an earlier run, if any
+    std::fs::create_dir_all(&path).expect("a folder for test files");
+    std::fs::write(path.join("joint.json"), JOINT).expect("a joint");
+    path
+}
+
+/// The shared library that cargo built with this test: the same sources, the same stamp.
+fn library() -> PathBuf {
+    let test = std::env::current_exe().expect("this test has a file");
+    test.with_file_name(format!("libiwan{}", std::env::consts::DLL_SUFFIX))
+}
+
+fn export(folder: &Path, library: Option<&Path>, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_iwan"));
+    command
+        .current_dir(folder)
+        .env_remove("IWAN_FMU_LIBRARY")
+        .arg("export")
+        .args(arguments);
+    if let Some(library) = library {
+        command.env("IWAN_FMU_LIBRARY", library);
+    }
+    command.output().expect("the binary runs")
+}
+
+#[track_caller]
+fn fine(folder: &Path, arguments: &[&str]) -> Vec<u8> {
+    let output = export(folder, Some(&library()), arguments);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    std::fs::read(folder.join("joint.fmu")).expect("the archive")
+}
+
+#[track_caller]
+fn refused(folder: &Path, library: Option<&Path>, arguments: &[&str], expected: &str) {
+    let before = listing(folder);
+    let output = export(folder, library, arguments);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains(expected), "{told}");
+    assert_eq!(listing(folder), before, "a refusal leaves nothing behind");
+}
+
+fn listing(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("the folder");
+    let mut files: Vec<_> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.sort();
+    files
+}
+
+fn entry(archive: &[u8], name: &str) -> Vec<u8> {
+    let mut archive = zip::ZipArchive::new(std::io::Cursor::new(archive)).expect("a zip file");
+    let mut bytes = Vec::new();
+    let mut file = archive.by_name(name).expect(name);
+    assert_eq!(file.compression(), zip::CompressionMethod::Deflated);
+    file.read_to_end(&mut bytes).expect(name);
+    bytes
+}
+
+#[test]
+fn the_archive_holds_the_joint_as_it_is_and_its_guid() {
+    let folder = folder("whole");
+    for (drive, name) in [
+        (Drive::Force, "force"),
+        (Drive::Displacement, "displacement"),
+    ] {
+        let archive = fine(&folder, &["joint.json", "-o", "joint.fmu", "--drive", name]);
+        assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
+        let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+        assert!(xml.contains(&format!("guid=\"{}\"", guid(JOINT, drive))));
+        assert!(xml.contains(&format!("driven in {name}")));
+        let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+        assert!(page.contains("break_free_limit"));
+        let packed = entry(&archive, "binaries/linux64/IwanJoint.so");
+        assert_eq!(packed, std::fs::read(library()).expect("the library"));
+    }
+    assert_eq!(
+        listing(&folder).len(),
+        2,
+        "nothing but joint.json and joint.fmu"
+    );
+}
+
+#[test]
+fn equal_joints_give_equal_archives() {
+    let folder = folder("equal");
+    let arguments = ["joint.json", "-o", "joint.fmu"];
+    assert_eq!(fine(&folder, &arguments), fine(&folder, &arguments));
+}
+
+#[test]
+fn several_platforms_in_one_archive() {
+    let folder = folder("platforms");
+    let elf = library().display().to_string();
+    // A library of another platform, as far as its first bytes and its stamp go.
+    let mut pe = b"MZ".to_vec();
+    pe.extend(iwan::variables::STAMP.as_bytes());
+    std::fs::write(folder.join("IwanJoint.dll"), &pe).expect("a file");
+    let (linux, windows) = (format!("linux64={elf}"), "win64=IwanJoint.dll");
+    let arguments = [
+        "joint.json",
+        "-o",
+        "joint.fmu",
+        "--binary",
+        &linux,
+        "--binary",
+        windows,
+    ];
+    let archive = fine(&folder, &arguments);
+    assert_eq!(entry(&archive, "binaries/win64/IwanJoint.dll"), pe);
+    assert!(!entry(&archive, "binaries/linux64/IwanJoint.so").is_empty());
+    let twice = [
+        "joint.json",
+        "-o",
+        "no.fmu",
+        "--binary",
+        &linux,
+        "--binary",
+        &linux,
+    ];
+    refused(
+        &folder,
+        None,
+        &twice,
+        "platform `linux64` has two libraries",
+    );
+}
+
+#[test]
+fn every_bad_library_is_told_apart() {
+    let folder = folder("libraries");
+    let arguments = ["joint.json", "-o", "joint.fmu"];
+    let nowhere = folder.join("nowhere.so");
+    refused(
+        &folder,
+        Some(&nowhere),
+        &arguments,
+        "nowhere.so: No such file",
+    );
+    refused(
+        &folder,
+        Some(&folder.join("joint.json")),
+        &arguments,
+        "expected a 64-bit ELF",
+    );
+    let stale = folder.join("stale.so");
+    std::fs::write(&stale, b"\x7fELF\x02 of other sources").expect("a file");
+    refused(
+        &folder,
+        Some(&stale),
+        &arguments,
+        "was built from other sources",
+    );
+    refused(&folder, Some(&stale), &arguments, iwan::pack::BUILD_COMMAND);
+    let with = |binary: &'static str| ["joint.json", "-o", "joint.fmu", "--binary", binary];
+    refused(&folder, None, &with("linux64"), "expected PLATFORM=FILE");
+    refused(
+        &folder,
+        None,
+        &with("amiga=a.so"),
+        "platform `amiga`: expected one of linux64",
+    );
+}
+
+/// A program that lies alone, as an installed one does: it says how the library is built.
+#[test]
+fn without_a_library_the_way_to_one_is_told() {
+    let folder = folder("alone");
+    let program = folder.join("iwan");
+    std::fs::copy(env!("CARGO_BIN_EXE_iwan"), &program).expect("a copy");
+    let output = Command::new(&program)
+        .current_dir(&folder)
+        .env_remove("IWAN_FMU_LIBRARY")
+        .args(["export", "joint.json", "-o", "joint.fmu"])
+        .output()
+        .expect("the copy runs");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains(iwan::pack::BUILD_COMMAND), "{told}");
+    assert!(told.contains("--binary PLATFORM=FILE"), "{told}");
+    // Beside the program, under the name it has in the archive, it is found.
+    std::fs::copy(library(), folder.join("IwanJoint.so")).expect("a copy");
+    let output = Command::new(&program)
+        .current_dir(&folder)
+        .env_remove("IWAN_FMU_LIBRARY")
+        .args(["export", "joint.json", "-o", "joint.fmu"])
+        .output()
+        .expect("the copy runs");
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+#[test]
+fn every_bad_input_is_told_apart() {
+    let folder = folder("inputs");
+    let library = library();
+    let check = |arguments: &[&str], expected: &str| {
+        refused(&folder, Some(&library), arguments, expected);
+    };
+    check(
+        &["none.json", "-o", "joint.fmu"],
+        "none.json: there is no such file",
+    );
+    check(&["joint.json", "-o", "joint.json"], "this is an input");
+    check(
+        &["joint.json", "-o", "no/folder/joint.fmu"],
+        "there is no folder",
+    );
+    check(
+        &["joint.json", "-o", "joint.fmu", "--drive", "both"],
+        "invalid value 'both'",
+    );
+    check(
+        &["joint.json", "-o", "joint.fmu", "--fmi", "3"],
+        "invalid value '3'",
+    );
+    check(&["joint.json"], "--output");
+    std::fs::write(folder.join("cut.json"), &JOINT[..100]).expect("a file");
+    check(&["cut.json", "-o", "joint.fmu"], "cut.json:");
+}
+
+/// An archive that is there stays whole when the next export fails.
+#[test]
+fn a_refusal_leaves_the_old_archive() {
+    let folder = folder("old");
+    let arguments = ["joint.json", "-o", "joint.fmu"];
+    let old = fine(&folder, &arguments);
+    refused(
+        &folder,
+        Some(&folder.join("nowhere.so")),
+        &arguments,
+        "nowhere.so",
+    );
+    assert_eq!(
+        std::fs::read(folder.join("joint.fmu")).expect("the archive"),
+        old
+    );
+}
+
+/// Exactly the FMI functions leave the library. With the feature `importer` another crate adds a
+/// symbol, so that the packed library is looked at by tests/fmu/run_fmpy.py, and this one without.
+#[cfg(all(target_os = "linux", not(feature = "importer")))]
+#[test]
+fn the_library_exports_the_fmi_functions_and_nothing_else() {
+    let listing = Command::new("nm")
+        .args(["-D", "--defined-only"])
+        .arg(library())
+        .output();
+    let listing = String::from_utf8(listing.expect("nm runs").stdout).expect("UTF-8");
+    let symbols: Vec<_> = listing
+        .lines()
+        .filter_map(|line| line.split_whitespace().last())
+        .collect();
+    assert_eq!(symbols.len(), 34, "{symbols:?}");
+    assert!(
+        symbols.iter().all(|symbol| symbol.starts_with("fmi2")),
+        "{symbols:?}"
+    );
+}

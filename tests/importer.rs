@@ -1,0 +1,142 @@
+//! An exported joint in the `fmi` crate's importer, through `iwan check`, and its XML through that
+//! crate's reader.
+#![cfg(feature = "importer")]
+
+use fmi::fmi2::import::Fmi2Import;
+use fmi::traits::FmiImport;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const CAUSES: &str = r#"[
+  {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5}},
+  {"name": "viscous_damping", "parameters": {"coefficient": 500.0}}
+]"#;
+
+fn joint(causes: &str) -> String {
+    format!(
+        r#"{{"format": "iwan-joint/1", "version": "0.1.0", "units": "SI",
+        "density": {{"family": "four_parameter", "slip_force": 1000.0, "stiffness": 1.5e7,
+                     "exponent": -0.4, "ratio": 0.3}},
+        "series_stiffness": 4e7, "causes": {causes}}}"#
+    )
+}
+
+/// Runs `iwan` with the library that cargo built with this test.
+fn iwan(folder: &Path, arguments: &[&str]) -> Output {
+    let test = std::env::current_exe().expect("this test has a file");
+    let library = test.with_file_name(format!("libiwan{}", std::env::consts::DLL_SUFFIX));
+    Command::new(env!("CARGO_BIN_EXE_iwan"))
+        .current_dir(folder)
+        .env("IWAN_FMU_LIBRARY", library)
+        .args(arguments)
+        .output()
+        .expect("the binary runs")
+}
+
+#[track_caller]
+fn fine(folder: &Path, arguments: &[&str]) -> String {
+    let output = iwan(folder, arguments);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// A folder with an archive of a joint.
+fn exported(name: &str, causes: &str, drive: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("importer {name} {drive}"));
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run, if any
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("joint.json"), joint(causes)).expect("a joint");
+    fine(
+        &folder,
+        &["export", "joint.json", "-o", "joint.fmu", "--drive", drive],
+    );
+    folder
+}
+
+#[test]
+fn the_importer_gives_what_the_simulation_gives() {
+    for (name, causes) in [("plain", "[]"), ("with causes", CAUSES)] {
+        for drive in ["force", "displacement"] {
+            let folder = exported(name, causes, drive);
+            let told = fine(&folder, &["check", "joint.fmu", "--json"]);
+            let found: Value = serde_json::from_str(&told).expect("JSON");
+            assert_eq!(found["verdict"], "agrees", "{told}");
+            assert_eq!(found["input"], drive);
+            assert_eq!(found["state_continues"], true);
+            let differences = found["differences"].as_array().expect("a list");
+            assert_eq!(differences.len(), 6);
+            for difference in differences {
+                let value = difference["largest_value"].as_f64().expect("a number");
+                assert!(value > 0.0, "nothing is compared in {difference}");
+            }
+            assert!(fine(&folder, &["check", "joint.fmu"]).contains("agrees with its joint"));
+        }
+    }
+}
+
+#[test]
+fn a_load_of_a_file_is_run() {
+    let folder = exported("load", "[]", "force");
+    std::fs::write(
+        folder.join("load.csv"),
+        "time [ms],force [kN]\n0,0\n1,0.5\n2,-0.5\n3,0.2\n",
+    )
+    .expect("a load");
+    let told = fine(&folder, &["check", "joint.fmu", "load.csv", "--json"]);
+    let found: Value = serde_json::from_str(&told).expect("JSON");
+    assert_eq!(
+        (&found["samples"], &found["verdict"]),
+        (&4.into(), &"agrees".into())
+    );
+    std::fs::write(folder.join("strong.csv"), "time [s],force [kN]\n0,0\n1,5\n").expect("a load");
+    let output = iwan(&folder, &["check", "joint.fmu", "strong.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("full slip"));
+}
+
+/// An archive whose joint was exchanged is told by its GUID; one that is none by its form.
+#[test]
+fn a_foreign_archive_is_refused() {
+    let folder = exported("foreign", "[]", "force");
+    std::fs::write(folder.join("text.fmu"), "no archive").expect("a file");
+    let output = iwan(&folder, &["check", "text.fmu"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("text.fmu: is no FMI 2.0 archive"));
+    let output = iwan(&folder, &["check", "none.fmu"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn the_xml_reads_back_as_it_was_meant() {
+    let folder = exported("xml", CAUSES, "force");
+    let import: Fmi2Import =
+        fmi::import::from_path(folder.join("joint.fmu")).expect("an FMI 2.0 archive");
+    let description = import.model_description();
+    assert_eq!(description.fmi_version, "2.0");
+    assert!(description.model_exchange.is_none());
+    let unit = description.co_simulation.as_ref().expect("co-simulation");
+    assert_eq!(unit.model_identifier, "IwanJoint");
+    let text = joint(CAUSES);
+    let joint = iwan::saved::read(&text, "joint.json")
+        .expect("a joint")
+        .joint;
+    let drive = iwan::joint::Drive::Force;
+    let variables = iwan::variables::Variables::of(&joint, drive).expect("variables");
+    let read = &description.model_variables.variables;
+    let names: Vec<_> = read
+        .iter()
+        .map(|v| (v.name.clone(), v.value_reference))
+        .collect();
+    let meant: Vec<_> = variables
+        .iter()
+        .map(|v| (v.name.clone(), v.reference))
+        .collect();
+    assert_eq!(names, meant);
+    assert_eq!(description.guid, iwan::variables::guid(&text, drive));
+}
