@@ -32,10 +32,10 @@ step() {
 
 #    name                             command
 step "Rust formatting"                cargo fmt --check
-step "Rust lints"                     cargo clippy --locked --quiet --all-targets --features importer -- -D warnings
+step "Rust lints"                     cargo clippy --locked --quiet --release --all-targets --features importer -- -D warnings
 step "Python formatting"              "$PYTHON" -m ruff format --check --quiet .
 step "Python lints"                   "$PYTHON" -m ruff check --quiet .
-step "Rust tests"                     cargo test --locked --quiet --features importer
+step "Rust tests"                     cargo test --locked --quiet --release --features importer
 step "laboratory"                     "$PYTHON" -m unittest -q laboratory.self_test
 step "blind tests"                    "$PYTHON" tests/blind/run.py --iwan "$IWAN"
 step "demo"                           scripts/demo.sh "$demo_result"

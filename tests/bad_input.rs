@@ -213,8 +213,8 @@ fn paths_that_do_not_serve_are_refused() {
             &["none.csv", "no such file"],
         ),
         (
-            &["diagnose", "load.csv", "-o", "no/result"],
-            &["no folder `no`"],
+            &["diagnose", "load.csv", "-o", "load.csv/result"],
+            &["`load.csv` is a file"],
         ),
         (
             &["diagnose", "load.csv", "-o", "load.csv"],

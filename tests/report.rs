@@ -157,11 +157,7 @@ fn explained() -> Findings {
         ],
         notes: vec!["Records share one joint; each has its own offset.".to_owned()],
         joint: Joint {
-            density: Density::Sliders(Sliders {
-                weight: vec![1.5e6],
-                slip_at: vec![1e-6],
-                elastic: 0.0,
-            }),
+            density: Density::Sliders(Sliders::new(vec![1.5e6], vec![1e-6], 0.0).unwrap()),
             series_stiffness: f64::INFINITY,
             effects: Vec::new(),
         },

@@ -48,9 +48,9 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         for (from, to, phases) in pieces(input) {
             let mut own = vec![Bin::new(k, from, to); phases];
             for (start, end) in cuts(input, from, to) {
-                for i in start..end {
-                    let phase = (i - start) * phases / (end - start).max(1);
-                    own[phase.min(phases - 1)].add(white[i]);
+                for (i, &value) in white[start..end].iter().enumerate() {
+                    let phase = i * phases / (end - start).max(1);
+                    own[phase.min(phases - 1)].add(value);
                 }
             }
             bins.append(&mut own);
@@ -64,7 +64,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         .sum();
     let free = (total - bins.len() as f64).max(1.0);
     let variance = within / free;
-    if !(variance > 0.0) || bins.is_empty() {
+    if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
             share: 0.0,
             significance: 0.0,

@@ -106,8 +106,8 @@ impl Operators {
         let mut reached = 0.0;
         let mut edges = Vec::with_capacity(n);
         let mut next = 1;
-        for j in 0..n {
-            let share = kept / n as f64 + (1.0 - kept) * density[j] * width(j) / total;
+        for (j, own) in density.iter().enumerate() {
+            let share = kept / n as f64 + (1.0 - kept) * own * width(j) / total;
             while next <= n && (next as f64 / n as f64) <= reached + share + 1e-12 {
                 let fraction = ((next as f64 / n as f64) - reached) / share;
                 edges.push((edge(j) + fraction * width(j)).min(top));

@@ -116,8 +116,8 @@ impl Problem {
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects);
-            for i in 0..measured.len() {
-                let step = march.step(record.time[i], record.steps[i], input[i]);
+            for (i, &driven) in input.iter().enumerate() {
+                let step = march.step(record.time[i], record.steps[i], driven);
                 truth.force[i] = step.force;
                 truth.displacement[i] = step.displacement;
                 if round + 1 == rounds {

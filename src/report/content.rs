@@ -6,6 +6,7 @@ use minijinja::value::Value;
 use super::CausePage;
 use super::plots::Figure;
 use super::quantity::{estimate, number, percent, quantity};
+use super::symbols::marked_up;
 use super::wording;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause, Verdict};
@@ -86,7 +87,7 @@ fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
             sign => page.sign,
             mistaken_for => page.mistaken_for.iter().map(|name| wording::in_words(name)).collect::<Vec<_>>(),
             separated_by => page.separated_by,
-            formula => page.formula,
+            formula => marked_up(&page.formula),
             source => page.source,
         }),
     }

@@ -3,6 +3,7 @@
 use minijinja::value::Value;
 use minijinja::{Environment, UndefinedBehavior, context};
 
+use super::symbols::marked_up;
 use super::{CausePage, ReportError, content, plots};
 use crate::diagnose::Findings;
 
@@ -39,7 +40,7 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
         evidence => plots::evidence(findings)?.as_ref().map(content::figure),
         candidates => content::candidates(findings),
         parameters => content::estimates(&findings.joint_parameters),
-        not_identifiable => findings.not_identifiable,
+        not_identifiable => findings.not_identifiable.iter().map(|s| marked_up(s)).collect::<Vec<_>>(),
         next_experiment => findings.next_experiment,
         records => content::records(findings),
         notes => findings.notes,

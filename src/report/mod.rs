@@ -5,6 +5,7 @@ pub mod html;
 pub mod json;
 mod plots;
 mod quantity;
+mod symbols;
 pub mod text;
 mod wording;
 

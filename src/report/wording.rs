@@ -59,7 +59,7 @@ pub(super) fn verdict_sentence(findings: &Findings) -> String {
         ),
         (Verdict::Explained, _) => format!("With {causes} only noise is left."),
         (Verdict::PartlyExplained, _) => {
-            format!("With {causes} structure beyond the noise remains.")
+            format!("With {causes} a part is explained; structure beyond the noise remains.")
         }
         (Verdict::Unexplained, true) => {
             "Structure beyond the noise that no cause of the catalogue predicts out of sample."
