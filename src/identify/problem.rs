@@ -168,7 +168,13 @@ impl Problem {
                 norm += (w * one).powi(2);
             }
             let offset = if norm > 0.0 { product / norm } else { 0.0 };
-            total += (squares - offset * product).max(0.0);
+            let left = squares - offset * product;
+            // A prediction that is no number is the worst there is, never a perfect one.
+            total += if left.is_finite() {
+                left.max(0.0)
+            } else {
+                f64::INFINITY
+            };
             offsets.push(offset);
         }
         (total, offsets)
