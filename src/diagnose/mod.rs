@@ -49,15 +49,14 @@ pub fn diagnose(
     assemble(records, &bench, found)
 }
 
-/// Share of the structure that a named set must at least take away: one that takes less is the
-/// least bad of wrong explanations.
+/// Share of the misfit beyond the noise that a named set must at least take away: one that takes
+/// less is the least bad of wrong explanations.
 const TAKES: f64 = 0.25;
 
-/// Takes back names that leave nearly all of the structure where it was.
+/// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit.
 fn sober(bench: &Bench, found: Found) -> Found {
-    let before = structure(&bench.whole, &found.baseline.predict(&bench.whole));
-    let after = structure(&bench.whole, &found.best.predict(&bench.whole));
-    if before.significance > verdict::STRUCTURED && after.share > (1.0 - TAKES) * before.share {
+    let beyond = found.baseline.misfit - bench.train.rows() as f64;
+    if found.baseline.misfit - found.best.misfit < TAKES * beyond {
         return Found {
             best: found.baseline.clone(),
             rivals: Vec::new(),

@@ -6,7 +6,7 @@ use super::structure::Structure;
 /// Standard deviations of the bins' means beyond which structure is there: with tens of bins the
 /// chance of noise alone is below one in a million, which leaves room for noise that is not quite
 /// what it was taken for.
-pub const STRUCTURED: f64 = 6.0;
+const STRUCTURED: f64 = 6.0;
 
 /// Structure, as a share of the noise variance, below which it is no concern: a tenth of the
 /// noise in rms is 0.01.
