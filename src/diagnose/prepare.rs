@@ -183,6 +183,11 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
                 .zip(&predictions[k].judged)
                 .map(|(y, p)| y - p)
                 .collect();
+            // Noise leaves at least itself after any fit: an estimate above what the baseline
+            // leaves holds a change of the response from cycle to cycle.
+            let most = 1.2 * rms(&residual);
+            let own = own.filter(|n| n.deviation <= most);
+            let lent = lent.filter(|n| n.deviation <= most);
             let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(&residual));
             noise.deviation = noise.deviation.max(floor);
