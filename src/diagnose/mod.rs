@@ -6,6 +6,7 @@ pub mod gain;
 pub mod prepare;
 pub mod search;
 pub mod structure;
+pub mod trials;
 mod verdict;
 mod words;
 
@@ -13,7 +14,7 @@ pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
 use prepare::{Bench, prepare};
-use search::{Found, dispersion, search};
+use search::{Found, dispersion, quick, search};
 use structure::structure;
 
 use crate::causes::{Kind, find};
@@ -35,13 +36,17 @@ pub fn diagnose(
     let timed = records.iter().all(|r| r.time.is_some());
     progress("noise and baseline");
     let mut bench = prepare(records);
-    progress("searching the catalogue for causes");
-    let mut found = search(&bench, timed, baseline(&bench.train));
     if !bench.noise_is_repeated() {
-        let noise = bench.noise_from(&found.best);
-        bench.weigh(noise);
-        progress("searching again with the noise that the best model leaves");
-        found = search(&bench, timed, baseline(&bench.train));
+        progress("what is noise: a quick search, because too few cycles repeat");
+        for _ in 0..2 {
+            let found = quick(&bench, timed, &baseline(&bench.train));
+            let noise = bench.noise_from(&found);
+            bench.weigh(noise);
+        }
+    }
+    progress("searching the catalogue for causes");
+    let found = search(&bench, timed, baseline(&bench.train));
+    if !bench.noise_is_repeated() {
         let noise = bench.noise_from(&found.best);
         bench.weigh(noise);
     }

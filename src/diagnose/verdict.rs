@@ -10,7 +10,7 @@ const STRUCTURED: f64 = 6.0;
 
 /// Structure, as a share of the noise variance, below which it is no concern: a tenth of the
 /// noise in rms is 0.01.
-const NEGLIGIBLE: f64 = 0.02;
+pub const NEGLIGIBLE: f64 = 0.02;
 
 /// Share of the baseline's structure that may be left by a cause whose law is only nearly right.
 const LEFT: f64 = 0.10;

@@ -42,20 +42,54 @@ const SETTLED: f64 = 1e-6;
 /// The baseline: any Masing joint, no effect. Convex, so its minimum is the global one.
 pub fn baseline(problem: &Problem) -> Fit {
     let zero = vec![0.0; problem.operators.columns()];
-    refine(problem, zero, Vec::new(), 1)
+    let once = Steps {
+        most: 1,
+        ..Steps::full()
+    };
+    refine(problem, zero, Vec::new(), once)
 }
 
 /// Refits everything from the given start.
 pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
-    refine(problem, start.coefficients.clone(), effects, STEPS)
+    let steps = Steps::full();
+    refine(problem, start.coefficients.clone(), effects, steps)
 }
 
-/// Refits from the given start with a stated number of steps.
-pub fn refine(
+/// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.
+pub fn refit_below(problem: &Problem, start: &Fit, effects: Vec<Acting>, bound: f64) -> Fit {
+    let steps = Steps {
+        bound,
+        ..Steps::full()
+    };
+    refine(problem, start.coefficients.clone(), effects, steps)
+}
+
+/// When a refit ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Steps {
+    most: usize,
+    /// A refit that would need [`PROSPECT`] more steps like its last one to come below this misfit
+    /// is given up.
+    bound: f64,
+}
+
+/// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
+const PROSPECT: f64 = 4.0;
+
+impl Steps {
+    fn full() -> Steps {
+        Steps {
+            most: STEPS,
+            bound: f64::INFINITY,
+        }
+    }
+}
+
+fn refine(
     problem: &Problem,
     mut coefficients: Vec<f64>,
     mut effects: Vec<Acting>,
-    steps: usize,
+    steps: Steps,
 ) -> Fit {
     let columns = problem.operators.columns();
     let predictions = problem.predict(&coefficients, &effects);
@@ -65,7 +99,7 @@ pub fn refine(
         .map(|a| vec![f64::INFINITY; a.values.len()])
         .collect();
     let mut predictions = predictions;
-    for round in 0..steps {
+    for round in 0..steps.most {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);
         let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
         let records = problem.records.len();
@@ -85,8 +119,10 @@ pub fn refine(
             let trial_effects = moved(&effects, &slopes, moves, length);
             let trial = problem.predict(&trial_coefficients, &trial_effects);
             let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-            if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps == 1) {
-                accepted = misfit - trial_misfit > SETTLED * misfit;
+            if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
+            {
+                let fall = misfit - trial_misfit;
+                accepted = fall > SETTLED * misfit && trial_misfit - PROSPECT * fall < steps.bound;
                 coefficients = trial_coefficients;
                 effects = trial_effects;
                 predictions = trial;

@@ -6,6 +6,7 @@ pub mod exported;
 pub mod family;
 pub mod fit;
 pub mod interval;
+pub mod lanes;
 pub mod march;
 pub mod nonnegative;
 pub mod operators;
@@ -14,7 +15,7 @@ pub mod score;
 pub mod seed;
 
 pub use family::{FamilyError, FamilyFit};
-pub use fit::{Fit, baseline, refit};
+pub use fit::{Fit, baseline, refit, refit_below};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};
