@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const CAUSES: &str = r#"[
-  {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5}},
+  {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5, "rounding": 0, "stiffness_ratio": 1}},
   {"name": "viscous_damping", "parameters": {"coefficient": 500.0}}
 ]"#;
 

@@ -13,6 +13,7 @@ pub mod operators;
 pub mod problem;
 pub mod score;
 pub mod seed;
+pub mod series;
 
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit, refit_below};

@@ -65,6 +65,20 @@ impl Normal {
         }
     }
 
+    /// Makes moves of unknown `i` dearer by a share of its own square (Levenberg–Marquardt).
+    pub fn damp(&mut self, i: usize, share: f64) {
+        self.gram[i * self.size + i] *= 1.0 + share;
+    }
+
+    /// Keeps unknown `i` at zero.
+    pub fn hold(&mut self, i: usize) {
+        for j in 0..self.size {
+            self.gram[i * self.size + j] = 0.0;
+            self.gram[j * self.size + i] = 0.0;
+        }
+        self.right[i] = 0.0;
+    }
+
     /// Sum of squared residuals at `x`.
     pub fn misfit(&self, x: &[f64]) -> f64 {
         let mut sum = self.square;
