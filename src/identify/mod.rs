@@ -12,6 +12,7 @@ pub mod operators;
 pub mod problem;
 pub mod score;
 pub mod seed;
+pub mod table;
 
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit};
