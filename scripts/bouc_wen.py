@@ -1,6 +1,6 @@
-"""The Bouc-Wen model, fitted to records under displacement control: the usual rival of an Iwan joint.
+"""The Bouc-Wen model, fitted to records under displacement control: the rival of an Iwan joint.
 
-F = k U + c dU/dt + z + F0,  dz/dU = A (1 - |z/Z|^n (b sgn(z dU) + 1 - b)),  two branches of softening.
+F = k U + c dU/dt + z + F0,  dz/dU = A (1 - |z/Z|^n (b sgn(z dU) + 1 - b)).
 Parameters A, Z, n, b, k, c are common to all records; F0 is one offset per record.
 """
 
@@ -57,18 +57,19 @@ def linear(records, histories):
     """Stiffness beside, damping and the share of z by least squares; an offset per record."""
     centred = [
         (block - block.mean(axis=0))[:, :3]
-        for block in (columns(r, z) for r, z in zip(records, histories))
+        for block in (columns(r, z) for r, z in zip(records, histories, strict=True))
     ]
     force = [record["force"] - record["force"].mean() for record in records]
     weights = [1.0 / np.sqrt(len(f)) for f in force]
-    matrix = np.concatenate([w * block for w, block in zip(weights, centred)])
-    target = np.concatenate([w * f for w, f in zip(weights, force)])
+    matrix = np.concatenate([w * block for w, block in zip(weights, centred, strict=True)])
+    target = np.concatenate([w * f for w, f in zip(weights, force, strict=True)])
     size = np.linalg.norm(matrix, axis=0)
     solution = np.linalg.lstsq(matrix / size, target, rcond=None)[0] / size
     return solution, target - matrix @ solution
 
 
 def histories(unknowns, scale, records):
+    """z of every record at its own length."""
     z = hysteretic(natural(unknowns, scale), together(records))
     return [z[: len(record["displacement"]), i] for i, record in enumerate(records)]
 

@@ -31,6 +31,7 @@ UNSEEN = [
 
 
 def say(text):
+    """A line of progress."""
     print(text, file=sys.stderr, flush=True)
 
 
@@ -50,10 +51,12 @@ def diagnose(iwan, files, folder, options=()):
 
 
 def number(value):
+    """Four digits."""
     return "not told" if value is None else f"{value:.4g}"
 
 
 def with_interval(parameter):
+    """A parameter with its unit and interval."""
     text = f"{parameter['name']} {number(parameter['value'])} {parameter['unit']}"
     interval = parameter["interval"]
     return text + (f" ({number(interval[0])} … {number(interval[1])})" if interval else "")
@@ -114,6 +117,7 @@ def figure(found, name, record, title):
 
 
 def write(page, text):
+    """Puts the text between the marks of the page."""
     path = ROOT / "docs" / f"{page}.md"
     before = path.read_text()
     head, rest = before.split(BEGIN)
@@ -122,6 +126,7 @@ def write(page, text):
 
 
 def record(name):
+    """A record of the friction damper."""
     time_, displacement, force = np.loadtxt(
         DAMPER / f"{name}.csv", delimiter=",", comments="#", skiprows=3, unpack=True
     )
@@ -129,6 +134,7 @@ def record(name):
 
 
 def simulated(iwan, joint, name, folder):
+    """The force of a joint under the displacement of a record."""
     out = folder / f"{name}.csv"
     command = [iwan, "simulate", str(joint), str(DAMPER / f"{name}.csv"), "-o", str(out)]
     subprocess.run([*command, "--drive", "displacement"], check=True, capture_output=True)
@@ -192,6 +198,7 @@ def rivals(iwan, extended, folder):
 
 
 def damper(iwan, out):
+    """The friction damper with backlash."""
     found = diagnose(iwan, [DAMPER / f"{name}.csv" for name in FITTED], out / "damper")
     text = "### 30 lb, 0.25 and 0.5 Hz, 0.5 and 1.5 in together\n\n" + table(found)
     text += "\n" + figure(found, "real-friction-damper", FITTED[0], "Hysteresis")
@@ -218,12 +225,14 @@ def damper(iwan, out):
 
 
 def rubber(iwan, out):
+    """The rubber bearing."""
     found = diagnose(iwan, sorted((DATA / "rubber_bearing").glob("*.csv")), out / "rubber")
     drawn = figure(found, "real-rubber-bearing", "bearing_three_amplitudes", "Hysteresis")
     write("real-rubber-bearing", table(found) + "\n" + drawn)
 
 
 def mr_damper(iwan, out):
+    """The magnetorheological damper."""
     found = diagnose(iwan, sorted((DATA / "mr_damper").glob("*.csv")), out / "mr")
     write(
         "real-mr-damper",
@@ -232,6 +241,7 @@ def mr_damper(iwan, out):
 
 
 def beam(iwan, out):
+    """The bolted beam's amplitude table."""
     [file] = sorted((DATA / "brake_reuss_beam").glob("*.csv"))
     text = ""
     for label, name, options in [
@@ -252,6 +262,7 @@ def beam(iwan, out):
 
 
 def main():
+    """Runs what the command line names."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--iwan", default=str(ROOT / "target" / "release" / "iwan"))
     parser.add_argument("--output", type=Path, default=ROOT / "result" / "real")

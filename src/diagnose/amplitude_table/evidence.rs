@@ -18,8 +18,8 @@ const EXCEEDED: usize = 1;
 pub struct Thresholds {
     /// Misfit of the baseline beyond which something is wrong.
     pub misfit: f64,
-    /// Fall of the misfit beyond which an effect is there.
-    pub fall: f64,
+    /// Fall of the misfit over what is left of it beyond which an effect is there.
+    pub share: f64,
 }
 
 /// One effect tried beside those already named.
@@ -31,6 +31,14 @@ pub struct Trial {
     pub model: Model,
     /// Fall of the misfit, in noise variances.
     pub fall: f64,
+}
+
+impl Trial {
+    /// Fall of the misfit over what is left of it, plus the variance of one reading: as in an F test
+    /// the noise cancels, which the few levels of a table tell poorly.
+    pub fn share(&self) -> f64 {
+        self.fall / (self.model.misfit + 1.0)
+    }
 }
 
 /// The best shape of every effect, largest fall first.
@@ -69,10 +77,9 @@ pub fn thresholds(levels: &Levels, noise: &Scatter, baseline: &Model) -> Thresho
             let table = simulate(levels, noise, baseline, seed);
             let noise = scatter(&table);
             let base = fit(&table, &noise, &[], &kept);
-            let fall = trials(&table, &noise, &[], &base)
-                .first()
-                .map_or(0.0, |t| t.fall);
-            (base.misfit, fall)
+            let tried = trials(&table, &noise, &[], &base);
+            let share = tried.first().map_or(0.0, Trial::share);
+            (base.misfit, share)
         })
         .collect();
     let quantile = |of: &dyn Fn(&(f64, f64)) -> f64| {
@@ -82,7 +89,7 @@ pub fn thresholds(levels: &Levels, noise: &Scatter, baseline: &Model) -> Thresho
     };
     Thresholds {
         misfit: quantile(&|pair| pair.0),
-        fall: quantile(&|pair| pair.1),
+        share: quantile(&|pair| pair.1),
     }
 }
 

@@ -11,6 +11,8 @@ use rand_chacha::ChaCha8Rng;
 /// One level left out, as the others predict it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unseen {
+    /// Which row.
+    pub row: usize,
     /// Square of its residuals in units of the noise, and their count.
     pub square: f64,
     /// Count of residuals.
@@ -21,33 +23,39 @@ pub struct Unseen {
     pub stiffness: Option<f64>,
 }
 
-/// Every level but the smallest and the largest left out in turn: a joint of any density is not
-/// bound beyond the amplitudes that it was fitted to.
+/// Largest ratio of the two neighbours of a level that may be left out: across a wider gap a joint
+/// of any density is bound by nothing.
+const BRACKET: f64 = 3.0;
+/// Fewest levels that are left out; with fewer all inner ones are.
+const FEWEST: usize = 3;
+
+/// Every level between near neighbours left out in turn; never the smallest nor the largest.
 pub fn unseen(levels: &Levels, noise: &Scatter, effects: &[Shown]) -> Vec<Unseen> {
     let count = levels.rows.len();
-    (1..count.saturating_sub(1))
+    let inner = 1..count.saturating_sub(1);
+    let ratio = |i: usize| levels.rows[i + 1].amplitude / levels.rows[i - 1].amplitude;
+    let mut picked: Vec<usize> = inner.clone().filter(|&i| ratio(i) <= BRACKET).collect();
+    if picked.len() < FEWEST {
+        picked = inner.collect();
+    }
+    picked
+        .into_iter()
         .map(|out| {
             let kept: Vec<bool> = (0..count).map(|i| i != out).collect();
-            let row = &levels.rows[out];
-            let predicted = fit(levels, noise, effects, &kept).predict(row, levels);
-            against(row.loss, row.stiffness, &predicted, noise)
+            let predicted = fit(levels, noise, effects, &kept).predict(&levels.rows[out], levels);
+            against(levels, out, &predicted, noise)
         })
         .collect()
 }
 
 /// Residuals of one level.
-pub fn against(
-    loss: f64,
-    stiffness: Option<f64>,
-    predicted: &Predicted,
-    noise: &Scatter,
-) -> Unseen {
-    let loss = predicted.loss / loss - 1.0;
-    let stiffness = predicted
-        .stiffness
-        .zip(stiffness)
-        .map(|(model, measured)| model / measured - 1.0);
+pub fn against(levels: &Levels, row: usize, predicted: &Predicted, noise: &Scatter) -> Unseen {
+    let measured = &levels.rows[row];
+    let loss = predicted.loss / measured.loss - 1.0;
+    let pair = predicted.stiffness.zip(measured.stiffness);
+    let stiffness = pair.map(|(model, measured)| model / measured - 1.0);
     Unseen {
+        row,
         square: (loss / noise.loss).powi(2)
             + stiffness.map_or(0.0, |error| (error / noise.stiffness).powi(2)),
         count: 1.0 + f64::from(u8::from(stiffness.is_some())),

@@ -52,8 +52,11 @@ pub enum TableDiagnosisError {
 
 /// Effects named at most: more unknowns than that no table carries.
 const MOST_NAMED: usize = 2;
-/// A rival whose misfit is within so many noise variances of the best is not told apart.
-const CLOSE: f64 = 6.0;
+/// A rival that leaves less than so many times what the best leaves is not told apart from it: the
+/// 95 % quantile of a ratio of variances with eight degrees of freedom each.
+const CLOSE: f64 = 3.4;
+/// Error on levels left out, in units of the noise, up to which a model may claim to leave noise only.
+const NOISE_ONLY: f64 = 3.0;
 /// Refits of simulated tables for the intervals.
 const REFITS: u64 = 100;
 
@@ -91,6 +94,8 @@ struct Search<'a> {
     candidates: Vec<Candidate>,
     before: Vec<Unseen>,
     after: Vec<Unseen>,
+    /// True where an effect is seen, even if it is not named.
+    something: bool,
 }
 
 impl<'a> Search<'a> {
@@ -111,6 +116,7 @@ impl<'a> Search<'a> {
             candidates: Vec::new(),
             after: before.clone(),
             before,
+            something: false,
         };
         while search.named.len() < MOST_NAMED {
             let effects: Vec<Shown> = search.named.iter().map(|(shown, ..)| *shown).collect();
@@ -118,9 +124,11 @@ impl<'a> Search<'a> {
             if effects.is_empty() {
                 search.candidates = search.scored(&tried);
             }
-            let Some(best) = tried.first().filter(|best| best.fall > limits.fall) else {
+            let seen = |best: &&evidence::Trial| best.share() > limits.share;
+            let Some(best) = tried.first().filter(seen) else {
                 break;
             };
+            search.something = true;
             let together: Vec<Shown> = effects.iter().copied().chain([best.shown]).collect();
             let after = unseen(levels, noise, &together);
             if ratio(&search.after, &after)
@@ -129,9 +137,10 @@ impl<'a> Search<'a> {
             {
                 break;
             }
-            let rivals = tried[1..]
-                .iter()
-                .filter(|other| best.fall - other.fall < CLOSE);
+            let rivals = tried[1..].iter().filter(|other| {
+                other.share() > limits.share
+                    && other.model.misfit < CLOSE * (best.model.misfit + 1.0)
+            });
             let rivals = rivals.map(|other| other.shown.name().to_string()).collect();
             search.named.push((best.shown, rivals, best.fall));
             search.model = best.model.clone();
@@ -170,12 +179,12 @@ impl<'a> Search<'a> {
     }
 
     fn seen(&self, model: &Model) -> Vec<Unseen> {
-        let rows = self.levels.rows.iter();
-        rows.map(|row| {
-            let predicted = model.predict(row, self.levels);
-            against(row.loss, row.stiffness, &predicted, self.noise)
-        })
-        .collect()
+        (0..self.levels.rows.len())
+            .map(|row| {
+                let predicted = model.predict(&self.levels.rows[row], self.levels);
+                against(self.levels, row, &predicted, self.noise)
+            })
+            .collect()
     }
 
     fn stiffness(&self) -> f64 {
@@ -222,11 +231,13 @@ impl<'a> Search<'a> {
     }
 
     fn verdict(&self, limits: &Thresholds, baseline: &Model) -> Verdict {
-        if !self.named.is_empty() && self.model.misfit <= limits.misfit {
+        let named = !self.named.is_empty();
+        let predicts = errors(&[], &self.after).held_out_rms <= NOISE_ONLY;
+        if named && self.model.misfit <= limits.misfit && predicts {
             Verdict::Explained
-        } else if !self.named.is_empty() {
+        } else if named {
             Verdict::PartlyExplained
-        } else if baseline.misfit <= limits.misfit {
+        } else if baseline.misfit <= limits.misfit && !self.something {
             Verdict::Clean
         } else {
             Verdict::Unexplained

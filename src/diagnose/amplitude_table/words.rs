@@ -29,7 +29,7 @@ pub fn summary(verdict: Verdict, causes: &[NamedCause], ratio: f64, levels: &Lev
             "No Iwan network has the {column} of these levels; {names} beside it takes the error on levels left out to {ratio:.2} of the baseline's, and more than noise remains."
         ),
         Verdict::Unexplained => format!(
-            "No Iwan network has the {column} of these levels, and no effect that a table can show predicts levels left out."
+            "No Iwan network has the {column} of these levels, and no effect that a table can show predicts the levels left out better: what fits best stands among the candidates as a hypothesis."
         ),
     }
 }
@@ -148,8 +148,8 @@ pub fn places(levels: &Levels, unseen: &[Unseen]) -> Vec<String> {
             });
             format!(
                 "level {} ({:.4e} {unit}), left out: loss missed by {:+.1} %{stiffness}",
-                i + 2,
-                levels.rows[i + 1].amplitude,
+                level.row + 1,
+                levels.rows[level.row].amplitude,
                 100.0 * level.loss
             )
         })
