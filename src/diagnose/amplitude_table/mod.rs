@@ -16,7 +16,8 @@ mod words;
 pub use levels::TableError;
 
 use super::findings::{
-    Candidate, Estimate, Findings, NamedCause, NoiseFinding, RecordCurves, Unexplained, Verdict,
+    Candidate, Errors, Estimate, Findings, NamedCause, NoiseFinding, RecordCurves, Unexplained,
+    Verdict,
 };
 use crate::identify::table::Known;
 use crate::joint::{Joint, JointError};
@@ -137,10 +138,9 @@ impl<'a> Search<'a> {
             {
                 break;
             }
-            let rivals = tried[1..].iter().filter(|other| {
-                other.share() > limits.share
-                    && other.model.misfit < CLOSE * (best.model.misfit + 1.0)
-            });
+            let rivals = tried[1..]
+                .iter()
+                .filter(|other| other.model.misfit < CLOSE * (best.model.misfit + 1.0));
             let rivals = rivals.map(|other| other.shown.name().to_string()).collect();
             search.named.push((best.shown, rivals, best.fall));
             search.model = best.model.clone();
@@ -260,7 +260,12 @@ impl<'a> Search<'a> {
         };
         let residuals: f64 = self.before.iter().map(|u| u.count).sum();
         let rows = residuals / self.before.len().max(1) as f64 * self.levels.rows.len() as f64;
-        let beyond = |model: &Model| (model.misfit - rows).max(0.0);
+        let (before, after) = (
+            errors(&self.seen(baseline), &self.before),
+            errors(&self.seen(&self.model), &self.after),
+        );
+        // What noise alone gives is no misfit: 1 in units of the noise.
+        let beyond = |errors: &Errors| (errors.held_out_rms.powi(2) - 1.0).max(0.0);
         let stiffness = Estimate {
             name: "initial_stiffness".to_string(),
             value: joint.initial_stiffness(),
@@ -284,13 +289,13 @@ impl<'a> Search<'a> {
                 method: words::method(self.levels, self.noise),
                 effective_samples: rows,
             },
-            baseline: errors(&self.seen(baseline), &self.before),
-            extended: errors(&self.seen(&self.model), &self.after),
+            baseline: before.clone(),
+            extended: after.clone(),
             gain,
             unexplained: Unexplained {
                 share: match verdict {
                     Verdict::Clean => 0.0,
-                    _ if beyond(baseline) > 0.0 => beyond(&self.model) / beyond(baseline),
+                    _ if beyond(&before) > 0.0 => (beyond(&after) / beyond(&before)).min(1.0),
                     _ => 0.0,
                 },
                 places: match verdict {
