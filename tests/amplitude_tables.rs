@@ -159,6 +159,70 @@ fn without_displacement_the_loss_alone_is_judged_and_the_missing_stiffness_asked
     assert!((lost / loss - 1.0).abs() < 0.1, "{}", lost / loss);
 }
 
+#[test]
+fn repeats_and_too_few_levels_are_admitted_or_refused() {
+    let whole = table(|_| 0.0, |_| 0.0);
+    let twice = |values: &[f64]| {
+        values
+            .iter()
+            .flat_map(|v| [*v, *v * 1.001])
+            .collect::<Vec<_>>()
+    };
+    let doubled = AmplitudeTable {
+        force_amplitude: twice(&whole.force_amplitude),
+        displacement_amplitude: whole.displacement_amplitude.as_deref().map(twice),
+        dissipation: twice(&whole.dissipation),
+        frequency: None,
+        ..whole.clone()
+    };
+    let found = diagnosed(&doubled).findings;
+    assert!(found.causes.is_empty(), "{}", found.summary);
+    let short = AmplitudeTable {
+        name: "short".into(),
+        force_amplitude: vec![1.0, 2.0],
+        dissipation: vec![1e-6, 8e-6],
+        ..AmplitudeTable::default()
+    };
+    let refused = diagnose_tables(&[short], &Known::default(), |_| {});
+    assert!(refused.is_err_and(|error| error.to_string().contains("at least 5")));
+}
+
+/// At resonance without frequencies the stiffness given is no measurement of how it changes.
+#[test]
+fn a_resonance_without_frequencies_takes_the_stiffness_as_given() {
+    let whole = table(|_| 0.0, |_| 0.0);
+    let moved = whole.displacement_amplitude.clone().expect("displacements");
+    let exciter = whole
+        .dissipation
+        .iter()
+        .zip(&moved)
+        .map(|(d, x)| d / (PI * x));
+    let bare = AmplitudeTable {
+        force_amplitude: exciter.collect(),
+        frequency: None,
+        ..whole
+    };
+    assert!(
+        diagnosed(&bare)
+            .missing
+            .is_some_and(|why| why.contains("--stiffness"))
+    );
+    let known = Known {
+        stiffness: Some(STIFFNESS),
+        ..Known::default()
+    };
+    let given = diagnose_tables(&[bare], &known, |_| {}).expect("ten levels");
+    assert_eq!(given.missing, None);
+    assert!(
+        given.findings.causes.is_empty(),
+        "{}",
+        given.findings.summary
+    );
+    let (u, _, loss) = power_law(7.3);
+    let (lost, _) = loop_of(&given.findings.joint, u, 20.0);
+    assert!((lost / loss - 1.0).abs() < 0.03, "{}", lost / loss);
+}
+
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("amplitude tables {name}"));
     let _ = fs::remove_dir_all(&folder);

@@ -15,8 +15,9 @@ pub struct Known {
     pub modal_mass: Option<f64>,
 }
 
-/// Share of `π F X` from which on the loss says that force and motion are a quarter of a cycle apart.
-const QUARTER: f64 = 0.8;
+/// Ratio of the loss to `π F X` that says that force and motion are a quarter of a cycle apart. A joint
+/// in deep slip passes through this range on its way to 4/π, but not with every level.
+const QUARTER: std::ops::RangeInclusive<f64> = 0.85..=1.15;
 
 /// True where `D ≈ π F X` at every level: the force is then the exciter's at phase resonance, which
 /// balances the loss alone, and not the joint's own.
@@ -29,7 +30,7 @@ pub fn at_resonance(table: &AmplitudeTable) -> bool {
         .zip(&table.dissipation)
         .map(|((force, displacement), loss)| loss / (PI * force * displacement))
         .collect();
-    !sines.is_empty() && sines.iter().all(|sine| *sine > QUARTER)
+    !sines.is_empty() && sines.iter().all(|sine| QUARTER.contains(sine))
 }
 
 /// The joint's own force amplitude \[N\] of a table at phase resonance, `F = m ω² X`, where the modal

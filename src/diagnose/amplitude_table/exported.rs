@@ -17,7 +17,7 @@ pub fn missing(levels: &Levels, known: &Known) -> Option<String> {
              known up to the modal mass; give --modal-mass KG or --stiffness N/m"
                 .to_string(),
         ),
-        Over::Displacement if !levels.has_stiffness() => Some(
+        Over::Displacement if !levels.has_stiffness() && known.stiffness.is_none() => Some(
             "the table is taken at phase resonance and has neither frequency nor stiffness; give \
              --stiffness N/m"
                 .to_string(),
@@ -45,10 +45,14 @@ pub fn joint(levels: &Levels, model: &Model, known: &Known) -> Result<Joint, Joi
         .filter(|(_, w)| **w > 0.0);
     let (threshold, weight): (Vec<f64>, Vec<f64>) = acting.map(|(d, w)| (*d, *w)).unzip();
     let total: f64 = model.elastic + weight.iter().sum::<f64>();
-    let sliders = match levels.over {
-        Over::Displacement => Sliders::new(weight, threshold, model.elastic)?,
-        Over::Force => Plays {
-            compliance: known.stiffness.map_or(total, |stiffness| 1.0 / stiffness),
+    let slipping: f64 = weight.iter().sum();
+    let sliders = match (levels.over, known.stiffness) {
+        (Over::Displacement, Some(stiffness)) if !levels.has_stiffness() => {
+            Sliders::new(weight, threshold, (stiffness - slipping).max(0.0))?
+        }
+        (Over::Displacement, _) => Sliders::new(weight, threshold, model.elastic)?,
+        (Over::Force, stiffness) => Plays {
+            compliance: stiffness.map_or(total, |stiffness| 1.0 / stiffness),
             weight,
             threshold,
         }

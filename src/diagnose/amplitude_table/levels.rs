@@ -114,8 +114,8 @@ impl Levels {
             let displacement = table.displacement_amplitude.as_ref().map(|u| u[i]);
             let stiffness = match displacement {
                 Some(_) if mass_unknown => rate.map(|rate| rate * rate),
-                // without frequency or stiffness a resonance says nothing of the stiffness
-                Some(_) if harmonic && own.is_none() => None,
+                // without frequencies a resonance says nothing of how the stiffness changes
+                Some(_) if harmonic && table.frequency.is_none() => None,
                 Some(displacement) => Some(force.force_amplitude[i] / displacement),
                 None => None,
             };

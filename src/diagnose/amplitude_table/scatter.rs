@@ -31,6 +31,9 @@ pub fn scatter(levels: &Levels) -> Scatter {
         .collect();
     let (of_loss, count) = about_cubic(&x, &loss);
     let of_stiffness = stiffness.map_or(0.0, |y| about_cubic(&x, &y).0);
+    if count == 0 {
+        return ASSUMED;
+    }
     Scatter {
         loss: of_loss.max(LEAST_LOSS),
         stiffness: of_stiffness.max(LEAST_STIFFNESS),
@@ -38,19 +41,42 @@ pub fn scatter(levels: &Levels) -> Scatter {
     }
 }
 
+/// Where no level has two others on either side.
+const ASSUMED: Scatter = Scatter {
+    loss: 0.02,
+    stiffness: 0.002,
+    count: 0,
+};
+
+/// Levels closer than this, in the logarithm of the amplitude, are repeats of one.
+const APART: f64 = 0.02;
+
+/// The two nearest levels on one side, apart from each other and from level `i`.
+fn nearest(x: &[f64], i: usize, side: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut last = i;
+    let mut found = Vec::new();
+    for j in side {
+        if (x[j] - x[last]).abs() > APART && found.len() < 2 {
+            found.push(j);
+            last = j;
+        }
+    }
+    found
+}
+
 fn about_cubic(x: &[f64], y: &[f64]) -> (f64, usize) {
     let (mut sum, mut count) = (0.0, 0);
-    for i in 2..x.len().saturating_sub(2) {
-        let around = [i - 2, i - 1, i + 1, i + 2];
+    for i in 0..x.len() {
+        let mut around = nearest(x, i, (0..i).rev());
+        around.extend(nearest(x, i, i + 1..x.len()));
+        if around.len() < 4 {
+            continue;
+        }
         let weight = |a: usize| -> f64 {
             let others = around.iter().filter(|&&b| b != a);
             others.map(|&b| (x[i] - x[b]) / (x[a] - x[b])).product()
         };
         let weights: Vec<f64> = around.iter().map(|&a| weight(a)).collect();
-        // Repeats of one level would divide by nothing.
-        if weights.iter().any(|w| !w.is_finite()) {
-            continue;
-        }
         let there: f64 = around.iter().zip(&weights).map(|(&a, w)| w * y[a]).sum();
         let variance = 1.0 + weights.iter().map(|w| w * w).sum::<f64>();
         sum += (y[i] - there).powi(2) / variance;

@@ -50,7 +50,7 @@ pub fn judged(levels: &Levels) -> String {
 /// How the noise was estimated.
 pub fn method(levels: &Levels, noise: &Scatter) -> String {
     let mut said = match noise.count {
-        0 | 1 => "too few levels for their scatter: taken as".to_string(),
+        0 => "too few levels for their scatter: taken as".to_string(),
         count => format!("scatter of {count} levels about a smooth curve:"),
     };
     said.push_str(&format!(" {:.2} % of the loss", 100.0 * noise.loss));
