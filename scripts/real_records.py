@@ -88,7 +88,7 @@ def table(found):
         ("left of the explainable misfit", f"{100 * found['unexplained']['share']:.0f} %"),
         ("time", f"{found['seconds']:.1f} s"),
     ]
-    for cause in found["causes"]:
+    for cause in reversed(found["causes"]):
         values = "; ".join(with_interval(p) for p in cause["parameters"])
         rivals = cause["ambiguous_with"]
         values += f"; not told from {', '.join(rivals)}" if rivals else ""
