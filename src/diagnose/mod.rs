@@ -1,5 +1,6 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
+pub mod amplitude_table;
 mod curves;
 pub mod findings;
 pub mod gain;

@@ -14,6 +14,7 @@ pub mod problem;
 pub mod score;
 pub mod seed;
 pub mod series;
+pub mod table;
 
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit, refit_below};
