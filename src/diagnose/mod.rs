@@ -7,6 +7,7 @@ pub mod gain;
 pub mod prepare;
 pub mod search;
 pub mod structure;
+mod tested;
 pub mod trials;
 mod verdict;
 mod words;
@@ -88,7 +89,7 @@ fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings,
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let verdict = verdict::verdict(
-        named,
+        named.then(|| gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0),
         &structure_before,
         &structure_after,
         bench.noise_is_repeated(),

@@ -2,6 +2,7 @@
 //! the baseline, the best set grown forward and pruned backward.
 
 use super::prepare::Bench;
+use super::tested::tested;
 use super::trials::{Effort, Trial, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Problem, refit};
@@ -46,9 +47,10 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
     grown(bench, timed, baseline, Effort::Quick).0
 }
 
-/// Grows the set of causes, prunes it, and lists rivals.
+/// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
 pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
+    let best = tested(bench, &baseline, best);
     let (rivals, evidence) = rivals(bench, timed, &best, &first);
     Found {
         baseline,

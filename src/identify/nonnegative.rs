@@ -102,6 +102,9 @@ impl Normal {
         let mut passive: Vec<bool> = (0..n).map(|i| !bounded[i] && scale[i] > 0.0).collect();
         let tolerance = 1e-11 * self.square.sqrt();
         self.settle(&mut x, &mut passive, bounded, &scale);
+        // Unknowns that were tried and came straight back: nearly equal columns do that to rounding.
+        // They wait until another one has moved the solution.
+        let mut waiting = vec![false; n];
         for _ in 0..4 * n {
             let gradient = |i: usize| -> f64 {
                 let line = &self.gram[i * n..(i + 1) * n];
@@ -109,7 +112,7 @@ impl Normal {
                 (self.right[i] - product) * scale[i]
             };
             let best = (0..n)
-                .filter(|&i| bounded[i] && !passive[i] && scale[i] > 0.0)
+                .filter(|&i| bounded[i] && !passive[i] && !waiting[i] && scale[i] > 0.0)
                 .map(|i| (i, gradient(i)))
                 .max_by(|a, b| a.1.total_cmp(&b.1));
             match best {
@@ -118,7 +121,10 @@ impl Normal {
                     let before = x.clone();
                     self.settle(&mut x, &mut passive, bounded, &scale);
                     if x == before {
-                        break;
+                        passive[i] = false;
+                        waiting[i] = true;
+                    } else {
+                        waiting.iter_mut().for_each(|w| *w = false);
                     }
                 }
                 _ => break,
