@@ -5,6 +5,8 @@ mod host;
 
 #[path = "fmu/call_order.rs"]
 mod call_order;
+#[path = "fmu/derivatives.rs"]
+mod derivatives;
 #[path = "fmu/instances.rs"]
 mod instances;
 #[path = "fmu/messages.rs"]

@@ -23,6 +23,8 @@ impl Instance {
             input: motion.input,
             derivatives: motion.derivatives.0,
             dissipation_rate: motion.dissipation_rate,
+            step: motion.step,
+            rates: motion.rates,
             parameters: self.parameters.clone(),
             simulation: motion.simulation.as_ref().map(Simulation::state),
         }
@@ -31,18 +33,19 @@ impl Instance {
     /// Puts back a state of the same joint, mode included; on a refusal nothing changes.
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
         self.check(snapshot)?;
-        let simulation = snapshot.simulation.as_ref().map(|state| {
-            let mut simulation = match &self.motion.simulation {
-                // With the same parameters the tables of the joint need not be made again.
-                Some(simulation) if snapshot.parameters == self.parameters => simulation.clone(),
-                _ => {
-                    let joint = self.variables.apply(&self.exported, &snapshot.parameters)?;
-                    Simulation::new(&joint, self.drive)?
-                }
-            };
-            simulation.restore(state).map(|()| simulation)
-        });
-        let simulation = simulation.transpose()?;
+        let simulation = match (&snapshot.simulation, self.motion.simulation.as_mut()) {
+            (None, _) => None,
+            // With the same parameters it is the same joint: it goes back in its own memory.
+            (Some(state), Some(simulation)) if snapshot.parameters == self.parameters => {
+                simulation.restore(state)?;
+                self.motion.simulation.take()
+            }
+            (Some(state), _) => {
+                let mut simulation = self.virgin(&snapshot.parameters)?;
+                simulation.restore(state)?;
+                Some(simulation)
+            }
+        };
         self.parameters.clone_from(&snapshot.parameters);
         self.mode = snapshot.mode;
         self.motion = Motion {
@@ -52,6 +55,8 @@ impl Instance {
             derivatives: InputDerivatives(snapshot.derivatives),
             simulation,
             dissipation_rate: snapshot.dissipation_rate,
+            step: snapshot.step,
+            rates: snapshot.rates,
         };
         Ok(())
     }

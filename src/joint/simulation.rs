@@ -205,7 +205,8 @@ impl Simulation {
         self.output
     }
 
-    fn input(&self) -> f64 {
+    /// The last input [N or m].
+    pub fn input(&self) -> f64 {
         match self.drive {
             Drive::Force => self.output.force,
             Drive::Displacement => self.output.displacement,
