@@ -21,6 +21,7 @@ mod refusal;
 mod snapshot;
 mod states;
 mod stepping;
+mod three;
 mod values;
 mod variable_access;
 
@@ -31,5 +32,9 @@ pub use c_types::{
 pub use cosimulation::*;
 pub use instance::TURNING_POINTS;
 pub use lifecycle::*;
-pub use states::*;
+pub use states::{
+    fmi2DeSerializeFMUstate, fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SerializeFMUstate,
+    fmi2SerializedFMUstateSize, fmi2SetFMUstate,
+};
+pub use three::*;
 pub use variable_access::*;
