@@ -259,6 +259,10 @@ fn a_refusal_leaves_the_old_archive() {
     );
 }
 
+/// Functions of fmi3FunctionTypes.h, for all three kinds of units.
+#[cfg(all(target_os = "linux", not(feature = "importer")))]
+const FUNCTIONS_OF_FMI_3: usize = 75;
+
 /// Exactly the FMI functions leave the library. With the feature `importer` another crate adds a
 /// symbol, so that the packed library is looked at by tests/fmu/run_fmpy.py, and this one without.
 #[cfg(all(target_os = "linux", not(feature = "importer")))]
