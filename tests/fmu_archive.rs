@@ -106,6 +106,25 @@ fn equal_joints_give_equal_archives() {
     assert_eq!(fine(&folder, &arguments), fine(&folder, &arguments));
 }
 
+/// One library serves both versions of FMI; the token is the GUID.
+#[test]
+fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
+    let folder = folder("three");
+    let arguments = ["joint.json", "-o", "joint.fmu", "--fmi", "3"];
+    let archive = fine(&folder, &arguments);
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    let token = guid(JOINT, Drive::Force);
+    assert!(xml.contains("fmiVersion=\"3.0\""), "{xml}");
+    assert!(
+        xml.contains(&format!("instantiationToken=\"{token}\"")),
+        "{xml}"
+    );
+    assert!(xml.contains("hasEventMode=\"false\""), "{xml}");
+    assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
+    let packed = entry(&archive, "binaries/x86_64-linux/IwanJoint.so");
+    assert_eq!(packed, std::fs::read(library()).expect("the library"));
+}
+
 #[test]
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");

@@ -266,7 +266,6 @@ impl Extended {
             now: &self.now,
             laws: &self.laws,
             way: point.displacement - from.displacement,
-            network: self.network.force(),
             sliding: self.network.sliding_force(rising),
             flexibility: self.flexibility,
             reach: self.reach,

@@ -165,6 +165,16 @@ impl<C: VirginCurve> ExactResponse<C> {
         self.direction * self.curve.slipped_force(self.way())
     }
 
+    /// [`ExactResponse::sliding_force`] where the tangent \[N/m\] is known, without asking the curve:
+    /// `Λ_1 = G − u G'` with `G = |F − F_r|/2` on a branch.
+    pub fn sliding_force_with(&self, tangent: f64) -> f64 {
+        let force = match self.turnings.last() {
+            None => self.force.abs(),
+            Some(from) => (self.force - from.force).abs() / 2.0,
+        };
+        self.direction * (force - self.way() * tangent)
+    }
+
     /// The virgin curve's argument \[m\] at the present point.
     fn way(&self) -> f64 {
         match self.turnings.last() {

@@ -18,8 +18,7 @@ pub(super) struct End<'a> {
     pub laws: &'a Laws,
     /// Displacement over the step \[m\].
     pub way: f64,
-    /// Network: all of its force, and that of the sliders that slide \[N\].
-    pub network: f64,
+    /// Force of the network's sliders that slide \[N\].
     pub sliding: f64,
     /// K_1 as flexibility \[m/N\], and the slip range \[m\].
     pub flexibility: f64,
@@ -31,9 +30,13 @@ impl End<'_> {
     pub fn slopes(&self, scratch: &mut [f64]) -> Sensitivity {
         let (point, force) = (self.point, self.now.force);
         let mut lost = self.sliding;
-        let mut stored = self.network - self.sliding + self.flexibility * force * point.load_slope;
+        // The network's springs take what its sliders do not, and K_1 its own.
+        let mut stored = force - self.sliding + self.flexibility * force * point.load_slope;
         for (law, memory) in self.laws.iter() {
             let (elastic, other) = self.work(law, memory);
+            if law.place == Place::BesideSlip {
+                stored -= elastic; // its force is no force of the network
+            }
             let kept = self.kept(law, memory, scratch).unwrap_or(elastic);
             lost += elastic + other - kept;
             stored += kept;

@@ -23,7 +23,9 @@ impl Simulation {
                 })
             }
             Response::BehindSpring(exact) => {
-                let (slope, sliding) = (exact.tangent_stiffness(), exact.sliding_force());
+                // Both are at hand; this curve would be solved for them anew.
+                let slope = self.output.tangent_stiffness;
+                let sliding = exact.sliding_force_with(slope);
                 Sensitivity {
                     force: slope,
                     displacement: 1.0,
