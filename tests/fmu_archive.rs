@@ -106,6 +106,25 @@ fn equal_joints_give_equal_archives() {
     assert_eq!(fine(&folder, &arguments), fine(&folder, &arguments));
 }
 
+/// One library serves both versions of FMI; the token is the GUID.
+#[test]
+fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
+    let folder = folder("three");
+    let arguments = ["joint.json", "-o", "joint.fmu", "--fmi", "3"];
+    let archive = fine(&folder, &arguments);
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    let token = guid(JOINT, Drive::Force);
+    assert!(xml.contains("fmiVersion=\"3.0\""), "{xml}");
+    assert!(
+        xml.contains(&format!("instantiationToken=\"{token}\"")),
+        "{xml}"
+    );
+    assert!(xml.contains("hasEventMode=\"false\""), "{xml}");
+    assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
+    let packed = entry(&archive, "binaries/x86_64-linux/IwanJoint.so");
+    assert_eq!(packed, std::fs::read(library()).expect("the library"));
+}
+
 #[test]
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");
@@ -233,8 +252,8 @@ fn every_bad_input_is_told_apart() {
         "invalid value 'both'",
     );
     check(
-        &["joint.json", "-o", "joint.fmu", "--fmi", "3"],
-        "invalid value '3'",
+        &["joint.json", "-o", "joint.fmu", "--fmi", "4"],
+        "invalid value '4'",
     );
     check(&["joint.json"], "--output");
     std::fs::write(folder.join("cut.json"), &JOINT[..100]).expect("a file");
@@ -259,6 +278,10 @@ fn a_refusal_leaves_the_old_archive() {
     );
 }
 
+/// Functions of fmi3FunctionTypes.h, for all three kinds of units.
+#[cfg(all(target_os = "linux", not(feature = "importer")))]
+const FUNCTIONS_OF_FMI_3: usize = 75;
+
 /// Exactly the FMI functions leave the library. With the feature `importer` another crate adds a
 /// symbol, so that the packed library is looked at by tests/fmu/run_fmpy.py, and this one without.
 #[cfg(all(target_os = "linux", not(feature = "importer")))]
@@ -273,9 +296,15 @@ fn the_library_exports_the_fmi_functions_and_nothing_else() {
         .lines()
         .filter_map(|line| line.split_whitespace().last())
         .collect();
-    assert_eq!(symbols.len(), 34, "{symbols:?}");
-    assert!(
-        symbols.iter().all(|symbol| symbol.starts_with("fmi2")),
+    let of = |version: &str| {
+        let named = symbols.iter().filter(|symbol| symbol.starts_with(version));
+        named.count()
+    };
+    // All functions of fmi2FunctionTypes.h and, for all three kinds of units, fmi3FunctionTypes.h.
+    assert_eq!(
+        (of("fmi2"), of("fmi3")),
+        (34, FUNCTIONS_OF_FMI_3),
         "{symbols:?}"
     );
+    assert_eq!(symbols.len(), 34 + FUNCTIONS_OF_FMI_3, "{symbols:?}");
 }

@@ -4,10 +4,12 @@ mod documentation;
 mod error;
 mod library;
 mod model_description;
+mod model_description_3;
 mod unit;
 
 pub use error::PackError;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};
+pub use model_description_3::FmiVersion;
 
 use crate::joint::{Drive, Joint};
 use crate::saved;
@@ -33,16 +35,32 @@ impl Archive {
         drive: Drive,
         libraries: &[Library],
     ) -> Result<Archive, PackError> {
+        Archive::of_version(FmiVersion::Two, joint_json, file, drive, libraries)
+    }
+
+    /// As [`Archive::new`], for a version of FMI.
+    ///
+    /// # Errors
+    /// As [`Archive::new`].
+    pub fn of_version(
+        version: FmiVersion,
+        joint_json: &str,
+        file: &str,
+        drive: Drive,
+        libraries: &[Library],
+    ) -> Result<Archive, PackError> {
         let joint = saved::read(joint_json, file)?.joint;
         let variables = Variables::of(&joint, drive)?;
         check_starts(&variables, &joint)?;
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
-        let xml = model_description::xml(&joint, drive, &variables, &guid).map_err(|error| {
-            PackError::Entry {
-                name: "modelDescription.xml".to_owned(),
-                error,
-            }
+        let xml = match version {
+            FmiVersion::Two => model_description::xml(&joint, drive, &variables, &guid),
+            FmiVersion::Three => model_description_3::xml(&joint, drive, &variables, &guid),
+        };
+        let xml = xml.map_err(|error| PackError::Entry {
+            name: "modelDescription.xml".to_owned(),
+            error,
         })?;
         let page = documentation::html(&joint, drive, &variables, &guid);
         let mut entries = vec![
@@ -56,7 +74,7 @@ impl Archive {
         entries.extend(
             libraries
                 .iter()
-                .map(|library| (library.entry(), library.bytes.clone())),
+                .map(|library| (version.entry(library), library.bytes.clone())),
         );
         Ok(Archive { entries })
     }

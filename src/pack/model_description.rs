@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::io::Result;
 
 /// Attributes of one element, in order.
-type Attributes<'a> = Vec<(&'a str, String)>;
+pub(super) type Attributes<'a> = Vec<(&'a str, String)>;
 
 /// The XML of a joint under a drive. Elements and attributes stand in the order of the FMI 2.0
 /// schema; strict importers stop at any other.
@@ -31,18 +31,9 @@ pub fn xml(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> Re
     ];
     within(&mut writer, "fmiModelDescription", root, |writer| {
         empty(writer, "CoSimulation", capabilities())?;
-        units(writer, variables)?;
-        within(writer, "LogCategories", vec![], |writer| {
-            let refused = "Why a call was refused; always told";
-            log_category(writer, "logStatusError", refused)?;
-            log_category(
-                writer,
-                "logEvents",
-                "Instantiated, initialized, reset, terminated",
-            )
-        })?;
-        let experiment = [("startTime", "0"), ("stopTime", "1"), ("stepSize", "0.001")];
-        empty(writer, "DefaultExperiment", owned(&experiment))?;
+        units(writer, variables.iter().map(|variable| variable.unit))?;
+        log_categories(writer)?;
+        default_experiment(writer)?;
         within(writer, "ModelVariables", vec![], |writer| {
             variables
                 .iter()
@@ -62,19 +53,39 @@ fn capabilities() -> Attributes<'static> {
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canInterpolateInputs", "true"),
-        ("maxOutputDerivativeOrder", "0"),
+        ("maxOutputDerivativeOrder", "1"),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ])
 }
 
-/// Every unit that a variable uses, once, with its base units.
-fn units(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
-    let used: BTreeSet<_> = variables.iter().map(|variable| variable.unit).collect();
+pub(super) fn log_categories(writer: &mut Writer<Vec<u8>>) -> Result<()> {
+    within(writer, "LogCategories", vec![], |writer| {
+        let refused = "Why a call was refused; always told";
+        log_category(writer, "logStatusError", refused)?;
+        log_category(
+            writer,
+            "logEvents",
+            "Instantiated, initialized, reset, terminated",
+        )
+    })
+}
+
+pub(super) fn default_experiment(writer: &mut Writer<Vec<u8>>) -> Result<()> {
+    let experiment = [("startTime", "0"), ("stopTime", "1"), ("stepSize", "0.001")];
+    empty(writer, "DefaultExperiment", owned(&experiment))
+}
+
+/// Every unit that is used, once, with its base units.
+pub(super) fn units<'a>(
+    writer: &mut Writer<Vec<u8>>,
+    used: impl Iterator<Item = &'a str>,
+) -> Result<()> {
+    let used: BTreeSet<_> = used.collect();
     within(writer, "UnitDefinitions", vec![], |writer| {
         for unit in used {
             within(writer, "Unit", owned(&[("name", unit)]), |writer| {
@@ -104,7 +115,11 @@ fn log_category(writer: &mut Writer<Vec<u8>>, name: &str, description: &str) -> 
     )
 }
 
-fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Joint) -> Result<()> {
+/// What a variable is, and its numbers, in the words of both versions of FMI.
+pub(super) fn of_variable<'a>(
+    variable: &Variable,
+    joint: &Joint,
+) -> (Attributes<'a>, Attributes<'a>) {
     let mut attributes = vec![
         ("name", variable.name.clone()),
         ("valueReference", variable.reference.to_string()),
@@ -119,30 +134,39 @@ fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Jo
     };
     attributes.push(("variability", variability.to_owned()));
     attributes.extend(initial.map(|initial| ("initial", initial.to_owned())));
+    (attributes, numbers(variable, joint))
+}
+
+fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Joint) -> Result<()> {
+    let (attributes, real) = of_variable(variable, joint);
     within(writer, "ScalarVariable", attributes, |writer| {
-        let mut real = owned(&[("unit", variable.unit)]);
-        let numbers = [
-            (
-                "min",
-                Some(variable.lower).filter(|bound| bound.is_finite()),
-            ),
-            (
-                "max",
-                Some(variable.upper).filter(|bound| bound.is_finite()),
-            ),
-            ("start", variable.start(joint)),
-        ];
-        for (name, number) in numbers {
-            // `{:?}` is the shortest text that reads back as the same number.
-            real.extend(number.map(|number| (name, format!("{number:?}"))));
-        }
         empty(writer, "Real", real)
     })
 }
 
-/// Outputs and how they depend. Between steps an output follows from the state alone: the input
-/// acts only through fmi2DoStep, so that a master sees no algebraic loop. In Initialization Mode it
-/// follows from the input and every parameter.
+/// Unit, bounds and start value.
+fn numbers<'a>(variable: &Variable, joint: &Joint) -> Attributes<'a> {
+    let mut real = owned(&[("unit", variable.unit)]);
+    let numbers = [
+        (
+            "min",
+            Some(variable.lower).filter(|bound| bound.is_finite()),
+        ),
+        (
+            "max",
+            Some(variable.upper).filter(|bound| bound.is_finite()),
+        ),
+        ("start", variable.start(joint)),
+    ];
+    for (name, number) in numbers {
+        // `{:?}` is the shortest text that reads back as the same number.
+        real.extend(number.map(|number| (name, format!("{number:?}"))));
+    }
+    real
+}
+
+/// Outputs and how they depend: on the input at the end of the step, as the directional derivatives
+/// have it, and in Initialization Mode on the input and every parameter.
 fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
     let indices = |wanted: &[Causality]| -> Vec<String> {
         let all = variables.iter().enumerate();
@@ -150,9 +174,10 @@ fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> 
         chosen.map(|(index, _)| (index + 1).to_string()).collect()
     };
     let outputs = indices(&[Causality::Output]);
+    let input = indices(&[Causality::Input]).join(" ");
     let knowns = indices(&[Causality::Input, Causality::Parameter]).join(" ");
     within(writer, "ModelStructure", vec![], |writer| {
-        unknowns(writer, "Outputs", &outputs, "")?;
+        unknowns(writer, "Outputs", &outputs, &input)?;
         unknowns(writer, "InitialUnknowns", &outputs, &knowns)
     })
 }
@@ -174,14 +199,18 @@ fn unknowns(
     })
 }
 
-fn owned<'a>(attributes: &[(&'a str, &str)]) -> Attributes<'a> {
+pub(super) fn owned<'a>(attributes: &[(&'a str, &str)]) -> Attributes<'a> {
     attributes
         .iter()
         .map(|&(name, value)| (name, value.to_owned()))
         .collect()
 }
 
-fn empty(writer: &mut Writer<Vec<u8>>, name: &str, attributes: Attributes) -> Result<()> {
+pub(super) fn empty(
+    writer: &mut Writer<Vec<u8>>,
+    name: &str,
+    attributes: Attributes,
+) -> Result<()> {
     let pairs = attributes
         .iter()
         .map(|(name, value)| (*name, value.as_str()));
@@ -192,7 +221,7 @@ fn empty(writer: &mut Writer<Vec<u8>>, name: &str, attributes: Attributes) -> Re
         .map(|_| ())
 }
 
-fn within(
+pub(super) fn within(
     writer: &mut Writer<Vec<u8>>,
     name: &str,
     attributes: Attributes,
