@@ -162,6 +162,7 @@ fn explained() -> Findings {
             effects: Vec::new(),
         },
         curves: vec![curves("bolt-1", 20), curves("bolt-2", 10)],
+        outlook: Default::default(),
     }
 }
 
@@ -199,6 +200,7 @@ fn unexplained() -> Findings {
     let found = clean();
     Findings {
         curves: explained().curves,
+        outlook: Default::default(),
         verdict: Verdict::Unexplained,
         summary: "What is left repeats from cycle to cycle.".to_owned(),
         baseline: explained().baseline,

@@ -1,6 +1,7 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
 mod curves;
+pub mod experiment;
 pub mod findings;
 pub mod gain;
 pub mod prepare;
@@ -129,9 +130,12 @@ fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings,
         notes: words::notes(records, bench),
         joint,
         curves: curves::curves(bench, &before, &after),
+        outlook: experiment::Outlook::default(),
     };
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
+    let timed = records.iter().all(|r| r.time.is_some());
+    experiment::look_ahead(&mut findings, bench, &found, &whole, timed);
     Ok(findings)
 }
 
