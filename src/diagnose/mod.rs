@@ -10,6 +10,7 @@ pub mod structure;
 mod verdict;
 mod words;
 
+pub use experiment::Options;
 pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
@@ -29,8 +30,17 @@ use crate::record::Record;
 ///
 /// # Errors
 /// [`JointError`] where the records hold no joint at all (no stiffness).
-pub fn diagnose(
+pub fn diagnose(records: &[Record], progress: impl FnMut(&str)) -> Result<Findings, JointError> {
+    diagnose_with(records, &Options::default(), progress)
+}
+
+/// Diagnoses with what is known besides the records: limits of the rig, a dummy.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_with(
     records: &[Record],
+    options: &Options,
     mut progress: impl FnMut(&str),
 ) -> Result<Findings, JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
@@ -47,7 +57,10 @@ pub fn diagnose(
         bench.weigh(noise);
     }
     progress("measuring the gain on held-out cycles");
-    assemble(records, &bench, found)
+    let (mut findings, found, whole) = assemble(records, &bench, found)?;
+    progress("looking ahead: what can be told apart, and by which experiment");
+    experiment::look_ahead(&mut findings, &bench, &found, &whole, timed, options);
+    Ok(findings)
 }
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
@@ -68,7 +81,11 @@ fn sober(bench: &Bench, found: Found) -> Found {
     found
 }
 
-fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings, JointError> {
+fn assemble(
+    records: &[Record],
+    bench: &Bench,
+    found: Found,
+) -> Result<(Findings, Found, Fit), JointError> {
     let found = sober(bench, found);
     let before = found.baseline.predict(&bench.train);
     let after = found.best.predict(&bench.train);
@@ -134,9 +151,7 @@ fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings,
     };
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
-    let timed = records.iter().all(|r| r.time.is_some());
-    experiment::look_ahead(&mut findings, bench, &found, &whole, timed);
-    Ok(findings)
+    Ok((findings, found, whole))
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {

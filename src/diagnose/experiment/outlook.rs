@@ -1,6 +1,8 @@
 //! Everything that a look ahead gives, as part of the findings.
 
+use super::Options;
 use super::loading::loading;
+use super::next::{Experiment, next};
 use super::separability::{ENERGY, MOTION, Map, Separable, TOLD, map};
 use crate::causes::{CATALOGUE, Cause, find};
 use crate::diagnose::findings::Findings;
@@ -14,10 +16,19 @@ use crate::joint::effect::Acting;
 pub struct Outlook {
     /// Separability of every cause on the records' own loading, the least first.
     pub separability: Vec<Separable>,
+    /// The load program that would settle what is open; `None` where nothing is.
+    pub experiment: Option<Experiment>,
 }
 
 /// Looks ahead: fills in `outlook`, the candidates' λ_sep, and what the records cannot show.
-pub fn look_ahead(findings: &mut Findings, bench: &Bench, found: &Found, whole: &Fit, timed: bool) {
+pub fn look_ahead(
+    findings: &mut Findings,
+    bench: &Bench,
+    found: &Found,
+    whole: &Fit,
+    timed: bool,
+    options: &Options,
+) {
     let problem = loading(bench);
     let known = fitted(findings, found, whole);
     let causes: Vec<&'static dyn Cause> = CATALOGUE
@@ -27,6 +38,23 @@ pub fn look_ahead(findings: &mut Findings, bench: &Bench, found: &Found, whole: 
         .collect();
     let mut map = map(&problem, &whole.coefficients, &causes, &bench.scale, &known);
     tell(findings, &mut map, &problem, bench);
+    let experiment = match timed {
+        // Without time there is no rate to prescribe.
+        false => None,
+        true => next(
+            findings,
+            bench,
+            &problem,
+            &map,
+            &known,
+            whole,
+            &options.limits,
+        ),
+    };
+    if let Some(experiment) = &experiment {
+        findings.next_experiment = Some(experiment.description.clone());
+    }
+    findings.outlook.experiment = experiment;
     findings.outlook.separability = map.lines;
 }
 

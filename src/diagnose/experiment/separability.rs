@@ -96,7 +96,7 @@ pub fn map(
 }
 
 /// The products with the dictionary's columns in use projected off.
-fn swept(gram: &Gram, coefficients: &[f64]) -> Gram {
+pub(super) fn swept(gram: &Gram, coefficients: &[f64]) -> Gram {
     let used: Vec<usize> = (0..coefficients.len())
         .filter(|&i| coefficients[i] > 0.0)
         .collect();
