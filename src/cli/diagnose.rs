@@ -26,6 +26,9 @@ pub struct Diagnose {
     /// What the rig can do, for next_experiment.csv.
     #[command(flatten)]
     rig: RigLimits,
+    /// A monolithic specimen measured through the same chain: tells the joint from the chain
+    #[arg(long, value_name = "FILE")]
+    dummy: Option<PathBuf>,
     /// Print diagnosis.json instead of the summary
     #[arg(long)]
     json: bool,
@@ -91,7 +94,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let start = Instant::now();
     let options = Options {
         limits: arguments.rig.limits(),
-        dummy: None,
+        dummy: dummy(arguments)?,
     };
     let mut findings = diagnose_with(&records, &options, |stage| {
         eprintln!("[{:6.2} s] {stage}", start.elapsed().as_secs_f64());
@@ -135,6 +138,17 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         true => output::print(&format!("{diagnosis}\n")),
         false => output::print(&text::render(&findings)),
     }
+}
+
+/// The dummy's record, where one is given.
+fn dummy(arguments: &Diagnose) -> anyhow::Result<Option<Record>> {
+    let Some(file) = &arguments.dummy else {
+        return Ok(None);
+    };
+    let loaded = crate::read::file(file, &arguments.records.foreign.options()?)?;
+    super::input::tell_notes(file, &loaded.notes);
+    let mut records = histories(std::slice::from_ref(&loaded))?;
+    Ok(records.pop())
 }
 
 /// Fewest samples that a diagnosis can be made of.

@@ -57,7 +57,12 @@ pub fn diagnose_with(
         bench.weigh(noise);
     }
     progress("measuring the gain on held-out cycles");
+    let (found, said) = match &options.dummy {
+        Some(dummy) => experiment::dummy::settle(&bench, found, dummy),
+        None => (found, Vec::new()),
+    };
     let (mut findings, found, whole) = assemble(records, &bench, found)?;
+    findings.outlook.dummy = said;
     progress("looking ahead: what can be told apart, and by which experiment");
     experiment::look_ahead(&mut findings, &bench, &found, &whole, timed, options);
     Ok(findings)

@@ -90,6 +90,22 @@ impl Gram {
         small.at(m - 1, m - 1).max(0.0)
     }
 
+    /// Coefficients of the given few columns that fit column `of` best; `None` where they are not
+    /// independent.
+    pub fn coefficients(&self, of: usize, given: &[usize]) -> Option<Vec<f64>> {
+        let m = given.len();
+        let mut normal = Normal::new(m);
+        for (a, &i) in given.iter().enumerate() {
+            for (b, &j) in given.iter().enumerate() {
+                normal.gram[a * m + b] = self.at(i, j);
+            }
+            normal.right[a] = self.at(i, of);
+        }
+        normal.square = self.at(of, of);
+        let solution = normal.solve(&vec![false; m]);
+        solution.iter().all(|c| c.is_finite()).then_some(solution)
+    }
+
     /// Least square that the dictionary with non-negative coefficients and the given columns leave
     /// of `X c + size · column(of)`: the joint with the cause, seen without it.
     ///

@@ -1,7 +1,9 @@
 //! Looking ahead: what these records can tell apart, which experiment would tell the rest, what a
 //! dummy settles, and what can be corrected without a cause.
 
+pub mod correction;
 mod design;
+pub mod dummy;
 mod gram;
 pub mod limits;
 pub mod loading;
@@ -11,6 +13,8 @@ pub mod program;
 pub mod separability;
 mod shape;
 
+pub use correction::Correction;
+pub use dummy::Dummy;
 pub use limits::Limits;
 pub use next::Experiment;
 pub use outlook::{Outlook, look_ahead};

@@ -1,11 +1,13 @@
 //! Everything that a look ahead gives, as part of the findings.
 
 use super::Options;
+use super::correction::{Correction, correction};
+use super::dummy::Dummy;
 use super::loading::loading;
 use super::next::{Experiment, next};
 use super::separability::{ENERGY, MOTION, Map, Separable, TOLD, map};
 use crate::causes::{CATALOGUE, Cause, find};
-use crate::diagnose::findings::Findings;
+use crate::diagnose::findings::{Findings, Verdict};
 use crate::diagnose::prepare::Bench;
 use crate::diagnose::search::Found;
 use crate::identify::{Fit, Problem};
@@ -18,6 +20,10 @@ pub struct Outlook {
     pub separability: Vec<Separable>,
     /// The load program that would settle what is open; `None` where nothing is.
     pub experiment: Option<Experiment>,
+    /// What a dummy says of the causes of the measuring chain that are in question.
+    pub dummy: Vec<Dummy>,
+    /// A learned correction, which is no cause; `None` where none is sure to help.
+    pub correction: Option<Correction>,
 }
 
 /// Looks ahead: fills in `outlook`, the candidates' λ_sep, and what the records cannot show.
@@ -56,6 +62,13 @@ pub fn look_ahead(
     }
     findings.outlook.experiment = experiment;
     findings.outlook.separability = map.lines;
+    if matches!(
+        findings.verdict,
+        Verdict::Unexplained | Verdict::PartlyExplained
+    ) {
+        let after = found.best.predict(&bench.train);
+        findings.outlook.correction = correction(bench, &after, &findings.unit);
+    }
 }
 
 /// Named causes with their fitted values, and their rivals with theirs.
