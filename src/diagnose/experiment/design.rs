@@ -28,6 +28,10 @@ const BLOCKS: usize = 6;
 /// χ² at which a program is long enough: four times what tells two causes apart.
 const ENOUGH: f64 = 4.0 * TOLD;
 
+/// Share of what a cause brings that a rival may fall short by and still be listed beside it, since
+/// no law is quite that of the joint measured: a program has to separate by more than that.
+pub const NEARLY: f64 = 0.03;
+
 /// What is known before the experiment, and what is asked.
 pub struct Design<'a> {
     /// The loading so far.
@@ -82,8 +86,9 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// χ² of every question for the given products.
-    fn lambdas(&self, gram: &Gram) -> Vec<f64> {
+    /// χ² of every question for the given products, and that beyond what laws that are only nearly
+    /// right could leave.
+    fn lambdas(&self, gram: &Gram) -> Vec<(f64, f64)> {
         let swept = swept(gram, self.coefficients);
         let columns = self.coefficients.len();
         let each = self.questions.iter().enumerate().map(|(q, question)| {
@@ -93,17 +98,22 @@ impl<'a> Design<'a> {
                 .shapes
                 .iter()
                 .filter(|s| s.cause.name() == question.rival);
-            rivals
+            let alone = swept.at(of, of).max(0.0);
+            let left = rivals
                 .map(|rival| {
                     let given = rival.members(columns);
                     swept.left(of, &given.iter().map(|m| m.0).collect::<Vec<_>>())
                 })
-                .fold(swept.at(of, of).max(0.0), f64::min)
+                .fold(alone, f64::min);
+            match question.rival.as_str() {
+                "none" => (left, left),
+                _ => (left, left - NEARLY * alone),
+            }
         });
         each.collect()
     }
 
-    fn with(&self, blocks: &[Block]) -> Vec<f64> {
+    fn with(&self, blocks: &[Block]) -> Vec<(f64, f64)> {
         let program = program(self.problem, &self.rig, blocks);
         let extra = columns(&program, self.coefficients, &self.shapes);
         self.lambdas(
@@ -140,22 +150,22 @@ impl<'a> Design<'a> {
                 break;
             }
             (blocks, best) = (longer, lambdas);
-            if best.iter().all(|l| *l >= ENOUGH) {
+            if best.iter().all(|l| l.1 >= ENOUGH) {
                 break;
             }
         }
         (!blocks.is_empty()).then(|| Chosen {
             blocks,
-            lambdas: before.into_iter().zip(best).collect(),
+            lambdas: before.iter().zip(&best).map(|(b, a)| (b.0, a.0)).collect(),
         })
     }
 }
 
 /// The worst question first; beyond that the others, as far as they are not settled.
-fn worth(lambdas: &[f64]) -> f64 {
-    let worst = lambdas.iter().copied().fold(ENOUGH, f64::min);
-    let rest: f64 = lambdas.iter().map(|l| l.min(ENOUGH)).sum();
-    worst + 0.1 * rest / lambdas.len().max(1) as f64
+fn worth(lambdas: &[(f64, f64)]) -> f64 {
+    let beyond = || lambdas.iter().map(|l| l.1.min(ENOUGH));
+    let worst = beyond().fold(ENOUGH, f64::min);
+    worst + 0.1 * beyond().sum::<f64>() / lambdas.len().max(1) as f64
 }
 
 /// A program as a problem of its own, measured as the records are.
