@@ -89,12 +89,22 @@ def measure_dummy(truth, directory):
     return path
 
 
+def _limits(truth):
+    """What the rig can do: nearly full slip, ten times the rate, the time of the first tests."""
+    fastest = max(max(f["rates_Hz"]) for f in truth["files"])
+    seconds = sum(f["duration_s"] for f in truth["files"])
+    limits = {"--limit-rate": 10.0 * fastest, "--limit-duration": seconds}
+    if truth["drive"] == "force":
+        limits["--limit-force"] = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+    return tuple(word for option, value in limits.items() for word in (option, repr(value)))
+
+
 def follow_up(seed, number, name, span, iwan, directory, by_dummy=False):
     """One case before and after: marks of both, or only the first where nothing was ambiguous."""
     folder = Path(directory) / f"case-{number:04d}"
     records, truth, style = draw_case(seed, number, name, span=span)
     paths = write_case(folder, records, truth, style)
-    before, reason, _ = diagnose(iwan, paths, folder / "before")
+    before, reason, _ = diagnose(iwan, paths, folder / "before", _limits(truth))
     if before is None:
         return {"case": number, "effect": name, "failed": reason}
     marks = {"case": number, "effect": name, "before": judge(truth, before), "after": None}

@@ -29,10 +29,10 @@ fn features(bench: &Bench, predictions: &[Prediction]) -> Vec<(&'static str, Vec
     let problem = &bench.whole;
     let force_driven = problem.operators.form == Form::Play;
     let mut all: Vec<(&'static str, Vec<Vec<f64>>)> = Vec::new();
-    for k in 0..problem.records.len() {
+    for (k, prediction) in predictions.iter().enumerate() {
         let record = &problem.records[k];
         let (input, _) = problem.channels(k);
-        let output = &predictions[k].judged;
+        let output = &prediction.judged;
         let count = input.len();
         let names = match force_driven {
             true => ("force", "displacement"),
@@ -128,11 +128,11 @@ pub fn correction(bench: &Bench, after: &[Prediction], unit: &str) -> Option<Cor
         let mut weighing = Weighing::new(&problem.records[k], size);
         let mut row = vec![0.0; size];
         row[k] = 1.0;
-        for i in 0..judged.len() {
+        for (i, measured) in judged.iter().enumerate() {
             for (value, feature) in row[records..].iter_mut().zip(&features) {
                 *value = feature.1[k][i];
             }
-            row[size - 1] = judged[i] - after[k].judged[i];
+            row[size - 1] = measured - after[k].judged[i];
             if let Some(white) = weighing.weigh(i, &row) {
                 rows += 1.0;
                 for (a, x) in white.iter().enumerate() {

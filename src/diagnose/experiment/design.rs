@@ -32,6 +32,9 @@ const ENOUGH: f64 = 4.0 * TOLD;
 /// no law is quite that of the joint measured: a program has to separate by more than that.
 pub const NEARLY: f64 = 0.03;
 
+/// Multiple of [`NEARLY`] beyond which a larger share is no better.
+const CLEARLY: f64 = 2.0;
+
 /// What is known before the experiment, and what is asked.
 pub struct Design<'a> {
     /// The loading so far.
@@ -52,6 +55,8 @@ pub struct Chosen {
     pub blocks: Vec<Block>,
     /// χ² per question with the loading so far, and with the program besides (first order).
     pub lambdas: Vec<(f64, f64)>,
+    /// Least share that a rival leaves, with the program, of what the cause brings.
+    pub share: f64,
 }
 
 impl<'a> Design<'a> {
@@ -86,8 +91,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// χ² of every question for the given products, and that beyond what laws that are only nearly
-    /// right could leave.
+    /// χ² of every question for the given products, and its share of what the cause brings.
     fn lambdas(&self, gram: &Gram) -> Vec<(f64, f64)> {
         let swept = swept(gram, self.coefficients);
         let columns = self.coefficients.len();
@@ -106,8 +110,8 @@ impl<'a> Design<'a> {
                 })
                 .fold(alone, f64::min);
             match question.rival.as_str() {
-                "none" => (left, left),
-                _ => (left, left - NEARLY * alone),
+                "none" => (left, 1.0),
+                _ => (left, left / alone.max(f64::MIN_POSITIVE)),
             }
         });
         each.collect()
@@ -150,22 +154,30 @@ impl<'a> Design<'a> {
                 break;
             }
             (blocks, best) = (longer, lambdas);
-            if best.iter().all(|l| l.1 >= ENOUGH) {
+            if best
+                .iter()
+                .all(|l| l.0 >= ENOUGH && l.1 >= CLEARLY * NEARLY)
+            {
                 break;
             }
         }
         (!blocks.is_empty()).then(|| Chosen {
             blocks,
+            share: best.iter().map(|l| l.1).fold(f64::INFINITY, f64::min),
             lambdas: before.iter().zip(&best).map(|(b, a)| (b.0, a.0)).collect(),
         })
     }
 }
 
-/// The worst question first; beyond that the others, as far as they are not settled.
+/// The worst question first, beyond that the others: how far each is settled in χ² and as a share
+/// of what its cause brings.
 fn worth(lambdas: &[(f64, f64)]) -> f64 {
-    let beyond = || lambdas.iter().map(|l| l.1.min(ENOUGH));
-    let worst = beyond().fold(ENOUGH, f64::min);
-    worst + 0.1 * beyond().sum::<f64>() / lambdas.len().max(1) as f64
+    let settled = || {
+        let each = lambdas.iter();
+        each.map(|l| l.0.min(ENOUGH) * (l.1 / NEARLY).min(CLEARLY))
+    };
+    let worst = settled().fold(f64::INFINITY, f64::min);
+    worst + 0.1 * settled().sum::<f64>() / lambdas.len().max(1) as f64
 }
 
 /// A program as a problem of its own, measured as the records are.

@@ -1,6 +1,6 @@
 //! From open questions to the next experiment, or to why there is none.
 
-use super::design::{Chosen, Design, Question, program, refitted};
+use super::design::{Chosen, Design, NEARLY, Question, program, refitted};
 use super::limits::{Limits, rig};
 use super::separability::{Map, TOLD};
 use crate::causes::{Cause, Kind, find};
@@ -125,7 +125,8 @@ pub fn next(
                 .fold(f64::INFINITY, f64::min),
         ),
     };
-    let settles = after >= TOLD;
+    let share = chosen.as_ref().map_or(0.0, |c| c.share);
+    let settles = after >= TOLD && share >= NEARLY;
     let instead = (!settles).then(|| instead(&causes));
     let blocks = chosen.map_or(Vec::new(), |c| c.blocks);
     let (time, values) = rig.play(&blocks);
@@ -140,6 +141,10 @@ pub fn next(
         (Some(instead), true) => {
             format!("{purpose}: not with this rig, no program fits its limits; {instead}")
         }
+        (Some(instead), false) if after >= TOLD => format!(
+            "{purpose}: hardly with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, but that is {:.1} % of what the cause brings, and no law is that true; {instead}",
+            100.0 * share
+        ),
         (Some(instead), false) => format!(
             "{purpose}: not with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {TOLD:.0} is needed; {instead}"
         ),
@@ -198,7 +203,7 @@ fn instead(causes: &[String]) -> String {
     let chain = causes.iter().any(|c| is(c, Kind::Measurement));
     let joint = causes.iter().any(|c| is(c, Kind::Joint));
     match (chain, joint) {
-        (true, true) => "a monolithic dummy measured through the same chain would tell the joint from the chain (--dummy FILE), and so would a second displacement sensor of another kind.".to_string(),
+        (true, true) => "a monolithic dummy measured through the same chain would tell the joint from the chain (--dummy FILE), and so would a second displacement sensor of another kind, or more force or rate (--limit-force, --limit-rate).".to_string(),
         (true, false) => "a monolithic dummy measured through the same chain (--dummy FILE) or a second sensor of another kind would.".to_string(),
         _ => "more force, more rate or more time would (--limit-force, --limit-rate, --limit-duration), or a second sensor at the slipping faces.".to_string(),
     }
