@@ -43,12 +43,12 @@ def _noisy(staged, rng, time, force, displacement, by_force):
     return (time, force, response) if by_force else (time, response, displacement)
 
 
-def measure(staged, rng, time, command, by_force):
+def measure(staged, rng, time, command, by_force, fine_steps=FINE):
     """The hidden joint with its effect, virgin, under a command sampled at even steps."""
-    grid = np.linspace(time[0], time[-1], FINE * (len(time) - 1) + 1)
+    grid = np.linspace(time[0], time[-1], fine_steps * (len(time) - 1) + 1)
     fine = PchipInterpolator(time, command)(grid)
     trace = rig.drive(staged.scene.joint, grid, fine, by_force, staged.effect)
-    every = slice(None, None, FINE)
+    every = slice(None, None, fine_steps)
     force = staged.effect.read_force(trace)[every]
     displacement = staged.effect.read_displacement(trace)[every]
     return _noisy(staged, rng, time, force, displacement, by_force)
