@@ -2,6 +2,8 @@
 //! are, and nothing that breaks the page.
 
 use iwan::diagnose::Findings;
+use iwan::diagnose::experiment::dummy::Ruling;
+use iwan::diagnose::experiment::{Correction, Dummy, Outlook, Separable};
 use iwan::diagnose::findings::{
     Candidate, Errors, Estimate, NamedCause, NoiseFinding, RecordCurves, Unexplained, Verdict,
 };
@@ -162,6 +164,7 @@ fn explained() -> Findings {
             effects: Vec::new(),
         },
         curves: vec![curves("bolt-1", 20), curves("bolt-2", 10)],
+        outlook: Default::default(),
     }
 }
 
@@ -199,6 +202,7 @@ fn unexplained() -> Findings {
     let found = clean();
     Findings {
         curves: explained().curves,
+        outlook: Default::default(),
         verdict: Verdict::Unexplained,
         summary: "What is left repeats from cycle to cycle.".to_owned(),
         baseline: explained().baseline,
@@ -264,13 +268,16 @@ fn json_follows_the_schema_field_by_field() {
         "gain": {"held_out_rms_ratio": 0.287, "interval": [0.25, 0.331]},
         "unexplained": {
             "share": 0.02, "where": ["record bolt-2, cycles 4–6, just after reversals"],
+            "correction": null,
         },
         "not_identifiable": [
             "Rate effects: all cycles have one frequency.",
             "Full slip: the largest force stays below it.",
         ],
-        "next_experiment":
-            "Ten cycles at 14 µm: pinning and cubic stiffness then differ by 40 noise variances.",
+        "next_experiment": {"description":
+            "Ten cycles at 14 µm: pinning and cubic stiffness then differ by 40 noise variances."},
+        "separability": [],
+        "dummy": [],
         "records": [
             {"name": "bolt-1", "samples": 4000, "sha256": "ab".repeat(32)},
             {"name": "bolt-2", "samples": 2000, "sha256": "cd".repeat(32)},
@@ -630,4 +637,53 @@ fn only_what_was_found_is_drawn() {
     bare.curves.clear();
     bare.candidates.clear();
     assert!(!drawn(&bare).contains("<svg"));
+}
+
+#[test]
+fn what_lies_beyond_the_verdict_is_shown() {
+    let mut findings = unexplained();
+    findings.outlook = Outlook {
+        separability: vec![Separable {
+            name: "viscous_damping".to_owned(),
+            fitted: false,
+            values: vec![("coefficient".to_owned(), 120.0, "N.s/m".to_owned())],
+            lambda: 4.25,
+            baseline: 310.0,
+            rivals: vec![("sensor_delay".to_owned(), 4.25)],
+        }],
+        experiment: None,
+        dummy: vec![Dummy {
+            name: "sensor_delay".to_owned(),
+            fall: 512.0,
+            power: 498.0,
+            ruling: Ruling::Shown,
+        }],
+        correction: Some(Correction {
+            terms: vec![("cube of the input".to_owned(), 2.5e-7)],
+            unit: "m".to_owned(),
+            ratio: 0.62,
+            interval: (0.55, 0.71),
+        }),
+    };
+    let value = json::render(&findings);
+    assert_eq!(
+        value["unexplained"]["correction"],
+        json!({"is_a_cause": false, "held_out_rms_ratio": 0.62, "interval": [0.55, 0.71],
+               "terms": [{"feature": "cube of the input", "largest": 2.5e-7, "unit": "m"}]})
+    );
+    assert_eq!(
+        value["separability"][0]["rivals"][0]["name"],
+        "sensor_delay"
+    );
+    assert_eq!(value["dummy"][0]["ruling"], "shown");
+    let page = html::render(&findings, &[]).expect("page");
+    for words in [
+        "which is no cause",
+        "cube of the input",
+        "What this loading can tell apart",
+        "sensor delay (4.25)",
+        "it belongs to the measuring chain",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
 }

@@ -4,7 +4,8 @@ use super::input::{BesideTable, Records};
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
-use crate::diagnose::{Findings, diagnose};
+use crate::diagnose::experiment::{Experiment, Limits, Options};
+use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
 use crate::pack::{Archive, Library};
 use crate::read::Loaded;
@@ -25,12 +26,67 @@ pub struct Diagnose {
     /// Folder to write into; made where it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// What the rig can do, for next_experiment.csv.
+    #[command(flatten)]
+    rig: RigLimits,
+    /// A monolithic specimen measured through the same chain: tells the joint from the chain
+    #[arg(long, value_name = "FILE")]
+    dummy: Option<PathBuf>,
     /// Print diagnosis.json instead of the summary
     #[arg(long)]
     json: bool,
 }
 
-/// Runs the subcommand: report.html, diagnosis.json, joint.json and joint.fmu, all or none.
+/// What the rig can do; by default what the records show it doing.
+#[derive(Debug, Clone, Copy, clap::Args)]
+struct RigLimits {
+    /// Largest force of the next experiment, newton
+    #[arg(long, value_name = "N", value_parser = positive)]
+    limit_force: Option<f64>,
+    /// Largest displacement of the next experiment, metre (records driven by displacement)
+    #[arg(long, value_name = "M", value_parser = positive)]
+    limit_displacement: Option<f64>,
+    /// Highest rate of its cycles, hertz
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    limit_rate: Option<f64>,
+    /// Its longest duration, seconds
+    #[arg(long, value_name = "S", value_parser = positive)]
+    limit_duration: Option<f64>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("a limit is a number above zero".to_string()),
+    }
+}
+
+impl RigLimits {
+    fn limits(self) -> Limits {
+        Limits {
+            force: self.limit_force,
+            displacement: self.limit_displacement,
+            rate: self.limit_rate,
+            duration: self.limit_duration,
+        }
+    }
+}
+
+/// The program as a load for `iwan simulate`.
+fn program(experiment: &Experiment) -> String {
+    let mut text = String::new();
+    for block in &experiment.blocks {
+        text += &format!("# {block}\n");
+    }
+    text += &format!("time [s],{} [{}]\n", experiment.drive, experiment.unit);
+    for (time, value) in experiment.time.iter().zip(&experiment.values) {
+        text += &format!("{time:?},{value:?}\n");
+    }
+    text
+}
+
+/// Runs the subcommand: report.html, diagnosis.json, joint.json, joint.fmu and, where something is
+/// open, next_experiment.csv; all or none.
 ///
 /// # Errors
 /// Bad input as in reading; [`BadInput`] for records that hold no time history.
@@ -46,7 +102,14 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
                 .map_err(|error| BadInput(error.to_string()))?;
             (found.findings, found.missing)
         }
-        None => (diagnose(&histories(&loaded)?, progress)?, None),
+        None => {
+            let options = Options {
+                limits: arguments.rig.limits(),
+                dummy: dummy(arguments)?,
+            };
+            let records = histories(&loaded)?;
+            (diagnose_with(&records, &options, progress)?, None)
+        }
     };
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
@@ -74,6 +137,9 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         ("diagnosis.json", diagnosis.clone().into_bytes()),
     ];
     files.extend(joint.map(|text| ("joint.json", text.into_bytes())));
+    let experiment = findings.outlook.experiment.as_ref();
+    let experiment = experiment.filter(|experiment| !experiment.blocks.is_empty());
+    files.extend(experiment.map(|e| ("next_experiment.csv", program(e).into_bytes())));
     files.extend(archive.map(|bytes| ("joint.fmu", bytes)));
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
@@ -117,6 +183,17 @@ fn tables(loaded: &[Loaded]) -> Result<Option<Vec<AmplitudeTable>>, BadInput> {
             tables[0].name
         ))),
     }
+}
+
+/// The dummy's record, where one is given.
+fn dummy(arguments: &Diagnose) -> anyhow::Result<Option<Record>> {
+    let Some(file) = &arguments.dummy else {
+        return Ok(None);
+    };
+    let loaded = crate::read::file(file, &arguments.records.foreign.options()?)?;
+    super::input::tell_notes(file, &loaded.notes);
+    let mut records = histories(std::slice::from_ref(&loaded))?;
+    Ok(records.pop())
 }
 
 /// Fewest samples that a diagnosis can be made of.

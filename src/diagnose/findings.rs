@@ -1,5 +1,6 @@
 //! What a diagnosis found: one value from which text, HTML, JSON and plots are made.
 
+use super::experiment::Outlook;
 use crate::joint::Joint;
 
 /// The verdict, by what is left after the best set of causes.
@@ -169,4 +170,6 @@ pub struct Findings {
     pub joint: Joint,
     /// Curves for plots.
     pub curves: Vec<RecordCurves>,
+    /// What lies beyond the verdict: separability, the next experiment, a correction.
+    pub outlook: Outlook,
 }

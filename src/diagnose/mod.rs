@@ -2,6 +2,7 @@
 
 pub mod amplitude_table;
 mod curves;
+pub mod experiment;
 pub mod findings;
 pub mod gain;
 pub mod prepare;
@@ -12,6 +13,7 @@ pub mod trials;
 mod verdict;
 mod words;
 
+pub use experiment::Options;
 pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
@@ -31,8 +33,17 @@ use crate::record::Record;
 ///
 /// # Errors
 /// [`JointError`] where the records hold no joint at all (no stiffness).
-pub fn diagnose(
+pub fn diagnose(records: &[Record], progress: impl FnMut(&str)) -> Result<Findings, JointError> {
+    diagnose_with(records, &Options::default(), progress)
+}
+
+/// Diagnoses with what is known besides the records: limits of the rig, a dummy.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_with(
     records: &[Record],
+    options: &Options,
     mut progress: impl FnMut(&str),
 ) -> Result<Findings, JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
@@ -53,7 +64,15 @@ pub fn diagnose(
         bench.weigh(noise);
     }
     progress("measuring the gain on held-out cycles");
-    assemble(records, &bench, found)
+    let (found, said) = match &options.dummy {
+        Some(dummy) => experiment::dummy::settle(&bench, found, dummy),
+        None => (found, Vec::new()),
+    };
+    let (mut findings, found, whole) = assemble(records, &bench, found)?;
+    findings.outlook.dummy = said;
+    progress("looking ahead: what can be told apart, and by which experiment");
+    experiment::look_ahead(&mut findings, &bench, &found, &whole, timed, options);
+    Ok(findings)
 }
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
@@ -74,7 +93,11 @@ fn sober(bench: &Bench, found: Found) -> Found {
     found
 }
 
-fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings, JointError> {
+fn assemble(
+    records: &[Record],
+    bench: &Bench,
+    found: Found,
+) -> Result<(Findings, Found, Fit), JointError> {
     let found = sober(bench, found);
     let before = found.baseline.predict(&bench.train);
     let after = found.best.predict(&bench.train);
@@ -136,10 +159,11 @@ fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings,
         notes: words::notes(records, bench),
         joint,
         curves: curves::curves(bench, &before, &after),
+        outlook: experiment::Outlook::default(),
     };
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
-    Ok(findings)
+    Ok((findings, found, whole))
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {

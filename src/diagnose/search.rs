@@ -152,4 +152,4 @@ const MARGIN: f64 = 10.0;
 /// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
 /// causes apart no better than their laws are true. What the test of structure would not see of a
 /// law that is only nearly right, [`NEGLIGIBLE`] of the noise, bounds it.
-const NEARLY: f64 = 0.01;
+pub const NEARLY: f64 = 0.01;

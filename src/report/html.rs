@@ -4,7 +4,7 @@ use minijinja::value::Value;
 use minijinja::{Environment, UndefinedBehavior, context};
 
 use super::symbols::marked_up;
-use super::{CausePage, ReportError, content, plots};
+use super::{CausePage, ReportError, content, outlook, plots};
 use crate::diagnose::Findings;
 
 /// Named `.html`, so that every value is escaped.
@@ -42,6 +42,10 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
         parameters => content::estimates(&findings.joint_parameters),
         not_identifiable => findings.not_identifiable.iter().map(|s| marked_up(s)).collect::<Vec<_>>(),
         next_experiment => findings.next_experiment,
+        blocks => outlook::blocks(findings),
+        separability => outlook::separability(findings),
+        dummy => outlook::dummy(findings),
+        correction => outlook::correction(findings),
         records => content::records(findings),
         notes => findings.notes,
     })?;

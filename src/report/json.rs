@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::diagnose::Findings;
+use crate::diagnose::experiment::{Correction, Dummy, Separable};
 use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause};
 
 /// Identifier of the schema.
@@ -37,9 +38,12 @@ pub fn render(findings: &Findings) -> Value {
         "unexplained": {
             "share": number(findings.unexplained.share),
             "where": findings.unexplained.places,
+            "correction": findings.outlook.correction.as_ref().map(correction),
         },
         "not_identifiable": findings.not_identifiable,
-        "next_experiment": findings.next_experiment,
+        "next_experiment": next_experiment(findings),
+        "separability": list(&findings.outlook.separability, separable),
+        "dummy": list(&findings.outlook.dummy, dummy),
         "records": list(&findings.records, |(name, samples, hash)| {
             json!({ "name": name, "samples": samples, "sha256": hash })
         }),
@@ -91,6 +95,62 @@ fn candidate(candidate: &Candidate) -> Value {
         "probability": number(candidate.probability),
         "lambda_sep": candidate.lambda_sep.map_or(Value::Null, number),
         "held_out_gain": candidate.held_out_gain.map_or(Value::Null, number),
+    })
+}
+
+/// The experiment with its file, or the words alone where no program was designed.
+fn next_experiment(findings: &Findings) -> Value {
+    let Some(experiment) = &findings.outlook.experiment else {
+        let words = findings.next_experiment.as_ref();
+        return words.map_or(Value::Null, |words| json!({ "description": words }));
+    };
+    let written = !experiment.blocks.is_empty();
+    json!({
+        "description": experiment.description,
+        "causes": experiment.causes,
+        "file": written.then_some("next_experiment.csv"),
+        "drive": experiment.drive,
+        "blocks": experiment.blocks,
+        "duration": experiment.time.last().copied().map_or(Value::Null, number),
+        "lambda_before": number(experiment.lambda_before),
+        "lambda_after": number(experiment.lambda_after),
+        "settles": experiment.settles,
+        "instead": experiment.instead,
+    })
+}
+
+fn separable(line: &Separable) -> Value {
+    json!({
+        "name": line.name,
+        "fitted": line.fitted,
+        "values": list(&line.values, |(name, value, unit)| {
+            json!({ "name": name, "value": number(*value), "unit": unit })
+        }),
+        "lambda_sep": number(line.lambda),
+        "lambda_baseline": number(line.baseline),
+        "rivals": list(&line.rivals, |(name, left)| {
+            json!({ "name": name, "lambda": number(*left) })
+        }),
+    })
+}
+
+fn dummy(line: &Dummy) -> Value {
+    json!({
+        "name": line.name,
+        "fall": number(line.fall),
+        "power": number(line.power),
+        "ruling": line.ruling.name(),
+    })
+}
+
+fn correction(correction: &Correction) -> Value {
+    json!({
+        "is_a_cause": false,
+        "terms": list(&correction.terms, |(feature, size)| {
+            json!({ "feature": feature, "largest": number(*size), "unit": correction.unit })
+        }),
+        "held_out_rms_ratio": number(correction.ratio),
+        "interval": bounds(Some(correction.interval)),
     })
 }
 

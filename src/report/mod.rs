@@ -3,6 +3,7 @@
 mod content;
 pub mod html;
 pub mod json;
+mod outlook;
 mod plots;
 mod quantity;
 mod symbols;

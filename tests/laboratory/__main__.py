@@ -9,6 +9,7 @@ from . import noise_free
 from .blind import blind_test
 from .case import draw_case, write_case
 from .effects import CATALOGUE, EFFECTS
+from .follow_up import follow_ups, measure_dummy, run_load
 from .scorecard import card
 
 
@@ -32,15 +33,26 @@ def main(arguments=None):
     blind.add_argument("--ratio", type=_span, default=(1.0, 5.0), help="R or LOW:HIGH")
     blind.add_argument("--jobs", type=int, default=2)
     blind.add_argument("--pass", dest="more", default="", help="further words for diagnose")
+    run = commands.add_parser("run", help="the same hidden joint under a given load")
+    run.add_argument("--truth", required=True, help="truth.json of the case")
+    run.add_argument("--load", required=True, help="time, and force or displacement")
+    dummy = commands.add_parser("dummy", help="a monolithic specimen through the same chain")
+    dummy.add_argument("--truth", required=True, help="truth.json of the case")
+    follow = commands.add_parser("follow_up", help="ambiguous cases before and after")
+    follow.add_argument("--cases", type=int, default=12)
+    follow.add_argument("--iwan", required=True, help="path of the command line")
+    follow.add_argument("--effects", default="viscous_damping,sensor_delay")
+    follow.add_argument("--ratio", type=_span, default=(1.0, 2.0), help="R or LOW:HIGH")
+    follow.add_argument("--dummy", action="store_true", help="settle by a dummy instead")
     known = commands.add_parser("noise_free", help="records of a known power-law joint")
     known.add_argument("--softening", type=float, default=None, help="of the tangent, at the peak")
     demo = commands.add_parser("demo", help="the example records")
     board = commands.add_parser("scorecard", help="several blind tests on one card")
     board.add_argument("tests", nargs="+", help="blind.json files")
     commands.add_parser("effects", help="names of the effects")
-    for one in (draw, blind, known):
+    for one in (draw, blind, known, follow):
         one.add_argument("--seed", type=int, default=None, help="from the clock unless given")
-    for one in (draw, blind, known, demo, board):
+    for one in (draw, blind, known, demo, board, run, dummy, follow):
         one.add_argument("-o", "--output", required=True)
     asked = parser.parse_args(arguments)
     seed = getattr(asked, "seed", None)
@@ -55,6 +67,15 @@ def main(arguments=None):
         more = tuple(asked.more.split())
         blind_test(
             seed, asked.cases, asked.iwan, asked.output, effects, asked.ratio, asked.jobs, more
+        )
+    elif asked.command == "run":
+        print(run_load(asked.truth, asked.load, asked.output))
+    elif asked.command == "dummy":
+        print(measure_dummy(asked.truth, asked.output))
+    elif asked.command == "follow_up":
+        effects = asked.effects.split(",")
+        follow_ups(
+            seed, asked.cases, asked.iwan, asked.output, effects, asked.ratio, by_dummy=asked.dummy
         )
     elif asked.command == "noise_free":
         print(noise_free.make(seed, asked.output, asked.softening))

@@ -1,6 +1,7 @@
 """One blind case: joint, campaign, effect of known strength, noise; files and the truth apart."""
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -112,11 +113,34 @@ def _scene(rng, name):
     return Scene.stage(joint, histories, by_force, float(peak)), float(share)
 
 
-def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
-    """(records, truth) of one case; records are (time, force, displacement) in SI with noise.
+@dataclass
+class Staged:
+    """A case before its noise: what is hidden, what it gives, and the state of the draw."""
 
-    The same arguments give the same case. Scenes in which the effect cannot reach the ratio at a
-    sensible strength are drawn again; the truth says how often.
+    name: str
+    ratio: float
+    scene: Scene
+    share: float
+    gauge: Gauge
+    effect: Effect
+    found: float
+    sampled: Sampled
+    level: float
+    colour: float
+    rng: np.random.Generator
+    refused: list
+
+    @property
+    def rms(self):
+        """Noise of the response [its unit]."""
+        return self.level * self.gauge.rms
+
+
+def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
+    """The hidden joint and effect of a case; the same arguments give the same ones.
+
+    Scenes in which the effect cannot reach the ratio at a sensible strength are drawn again; the
+    truth says how often.
     """
     first = np.random.default_rng([seed, number])
     name = name or str(first.choice(pool or [*EFFECTS]))
@@ -151,6 +175,18 @@ def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
         break
     else:
         raise RuntimeError(f"case {number} ({name}): {refused}")
+    return Staged(
+        name, ratio, scene, share, gauge, effect, found, sampled, level, colour, rng, refused
+    )
+
+
+def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
+    """(records, truth, style) of one case; records are (time, force, displacement) in SI, noisy."""
+    staged = stage_case(seed, number, name, ratio, span, pool)
+    name, ratio, scene, share = staged.name, staged.ratio, staged.scene, staged.share
+    gauge, effect, found, sampled = staged.gauge, staged.effect, staged.found, staged.sampled
+    level, colour, rng, refused = staged.level, staged.colour, staged.rng, staged.refused
+    rms = staged.rms
     drive_noise = 0.0 if rng.random() < 0.5 else float(0.05 * level * rng.uniform(0.2, 1.0))
     offset = float(rng.normal(0.0, 0.005)) if scene.by_force and rng.random() < 0.4 else 0.0
     records = []

@@ -7,12 +7,14 @@ import json
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
 from . import loads, noise_free, rig
 from .case import Gauge, Sampled, calibrate, draw_case, write_case
 from .effects import CATALOGUE, EFFECTS, FOREIGN, in_turn
+from .follow_up import measure
 from .joints import LAWS, WEIGHTS, Joint, draw_joint
 from .noise import noise
 from .refit import Baseline
@@ -140,6 +142,22 @@ def small_scene(seed, by_force=True):
     history = loads.History(tape.step * np.arange(len(command)), command, 2, "test", [1.5, 6.0])
     peak = 0.35 if by_force else 0.9
     return Scene.stage(joint, [history], by_force, peak), rng
+
+
+class FollowUp(unittest.TestCase):
+    def test_the_same_load_gives_the_same_answer_again(self):
+        scene, rng = small_scene(4)
+        effect = CATALOGUE["viscous_damping"](scene, rng)
+        effect.strength = 0.05
+        first = Sampled(scene, scene.play(effect), effect)
+        still = SimpleNamespace(scene=scene, effect=effect, rms=0.0, level=0.0, colour=0.0)
+        again = measure(still, rng, first.time[0], first.drive[0], True, fine_steps=2)
+        size = np.max(np.abs(first.displacement[0]))
+        # The program is known at the samples only; between them the rig follows a curve.
+        np.testing.assert_allclose(again[2], first.displacement[0], atol=5e-3 * size)
+        clean = Sampled(scene, scene.clean, rig.Effect())
+        moved = np.max(np.abs(clean.displacement[0] - first.displacement[0]))
+        self.assertGreater(moved, 0.0)
 
 
 class Effects(unittest.TestCase):

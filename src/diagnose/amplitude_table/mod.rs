@@ -15,6 +15,7 @@ mod words;
 
 pub use levels::TableError;
 
+use super::experiment::Outlook;
 use super::findings::{
     Candidate, Errors, Estimate, Findings, NamedCause, NoiseFinding, RecordCurves, Unexplained,
     Verdict,
@@ -314,6 +315,7 @@ impl<'a> Search<'a> {
             joint,
             curves: self.curves(tables, baseline),
             causes,
+            outlook: Outlook::default(),
         }
     }
 

@@ -1,0 +1,237 @@
+//! Load programs: blocks of sine, triangle and hold, played on an even clock.
+
+use std::f64::consts::{PI, TAU};
+
+/// What the rig can do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rig {
+    /// Largest magnitude of the prescribed channel, N or m.
+    pub reach: f64,
+    /// Highest rate of a cycle \[Hz\].
+    pub rate: f64,
+    /// Longest test \[s\].
+    pub duration: f64,
+    /// Time between samples \[s\].
+    pub step: f64,
+}
+
+/// One block of a program; amplitude and mean as shares of the rig's reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    /// Amplitude over reach.
+    pub amplitude: f64,
+    /// Mean over reach.
+    pub mean: f64,
+    /// Rate over the rig's highest.
+    pub rate: f64,
+    /// Whole cycles at full amplitude.
+    pub cycles: usize,
+    /// Ramps with rounded corners instead of a sine.
+    pub ramps: bool,
+    /// Seconds of rest at the peak of the last cycle.
+    pub hold: f64,
+}
+
+impl Block {
+    /// Seconds it lasts: a cycle to ease in, the cycles, the rest at the peak.
+    pub fn seconds(&self, rig: &Rig) -> f64 {
+        (self.cycles as f64 + 1.0) / (self.rate * rig.rate) + self.hold
+    }
+
+    /// The block in words.
+    pub fn words(&self, rig: &Rig, unit: &str) -> String {
+        let wave = if self.ramps { "ramps" } else { "sine" };
+        let mut words = format!(
+            "{} cycles of {wave}, amplitude {:.3e} {unit}, {:.3e} Hz",
+            self.cycles,
+            self.amplitude * rig.reach,
+            self.rate * rig.rate
+        );
+        if self.mean != 0.0 {
+            words += &format!(", about {:.3e} {unit}", self.mean * rig.reach);
+        }
+        if self.hold > 0.0 {
+            words += &format!(", then {:.3e} s of rest at the peak", self.hold);
+        }
+        words
+    }
+}
+
+/// Most samples of a program.
+const MOST_SAMPLES: f64 = 12_000.0;
+
+impl Rig {
+    /// Blocks worth trying: steps of amplitude over two decades of rate, ramps, small cycles about
+    /// a mean to either side, rest at the peak, equal blocks repeated. None takes more than a third
+    /// of the time there is.
+    pub fn menu(&self) -> Vec<Block> {
+        let plain = Block {
+            amplitude: 1.0,
+            mean: 0.0,
+            rate: 1.0,
+            cycles: 6,
+            ramps: false,
+            hold: 0.0,
+        };
+        let mut menu = Vec::new();
+        for rate in [1.0, 0.32, 0.1, 0.032, 0.01] {
+            for amplitude in [1.0, 0.6, 0.3] {
+                menu.push(Block {
+                    amplitude,
+                    rate,
+                    ..plain
+                });
+            }
+            menu.push(Block {
+                ramps: true,
+                rate,
+                ..plain
+            });
+        }
+        for mean in [0.65, -0.65] {
+            for rate in [1.0, 0.1] {
+                menu.push(Block {
+                    amplitude: 0.3,
+                    mean,
+                    rate,
+                    ..plain
+                });
+            }
+        }
+        let third = self.longest() / 3.0;
+        for amplitude in [1.0, 0.5] {
+            menu.push(Block {
+                amplitude,
+                cycles: 2,
+                hold: 0.5 * third,
+                ..plain
+            });
+        }
+        menu.push(Block {
+            cycles: 12,
+            ..plain
+        });
+        menu.retain_mut(|block| {
+            while block.cycles > 2 && block.seconds(self) > third {
+                block.cycles -= 1;
+            }
+            block.seconds(self) <= third
+        });
+        menu
+    }
+
+    /// Seconds that a program may take: the rig's own limit and that of samples.
+    pub fn longest(&self) -> f64 {
+        self.duration.min(MOST_SAMPLES * self.step)
+    }
+
+    /// Plays blocks one after the other: time \[s\] and the prescribed channel, from rest at zero
+    /// back to zero, at every sample of the rig's clock.
+    pub fn play(&self, blocks: &[Block]) -> (Vec<f64>, Vec<f64>) {
+        let mut tape = Tape::new(self);
+        for block in blocks {
+            let rate = block.rate * self.rate;
+            tape.ramps = block.ramps;
+            tape.write(1.0 / rate, rate, block.amplitude, block.mean);
+            let cycles = block.cycles as f64 / rate;
+            if block.hold > 0.0 {
+                tape.write(cycles - 0.75 / rate, rate, block.amplitude, block.mean);
+                tape.write(block.hold, 0.0, block.amplitude, block.mean);
+                tape.write(0.75 / rate, rate, block.amplitude, block.mean);
+            } else {
+                tape.write(cycles, rate, block.amplitude, block.mean);
+            }
+        }
+        let rate = blocks.last().map_or(self.rate, |b| b.rate * self.rate);
+        tape.write(1.0 / rate, rate, 0.0, 0.0);
+        let time = (0..tape.values.len()).map(|i| i as f64 * self.step);
+        (time.collect(), tape.values)
+    }
+}
+
+/// A program being written: amplitude and mean ease from block to block, the phase runs on.
+struct Tape<'a> {
+    rig: &'a Rig,
+    values: Vec<f64>,
+    phase: f64,
+    amplitude: f64,
+    mean: f64,
+    ramps: bool,
+}
+
+impl<'a> Tape<'a> {
+    fn new(rig: &'a Rig) -> Tape<'a> {
+        Tape {
+            rig,
+            values: vec![0.0],
+            phase: 0.0,
+            amplitude: 0.0,
+            mean: 0.0,
+            ramps: false,
+        }
+    }
+
+    fn write(&mut self, seconds: f64, rate: f64, amplitude: f64, mean: f64) {
+        let count = (seconds / self.rig.step).round().max(1.0);
+        // A whole number of samples per piece moves the rate by less than a sample in a piece.
+        let turn = seconds * rate / count;
+        for i in 1..=count as usize {
+            let ease = 0.5 - 0.5 * (PI * i as f64 / count).cos();
+            let (level, about) = (
+                self.amplitude + (amplitude - self.amplitude) * ease,
+                self.mean + (mean - self.mean) * ease,
+            );
+            let phase = self.phase + turn * i as f64;
+            let sine = (TAU * phase).sin();
+            let wave = match self.ramps {
+                // Two terms of a triangle: no rig turns on the spot, and corners between samples
+                // would separate numerical differences of causes, not causes.
+                true => (sine - (3.0 * TAU * phase).sin() / 9.0) / (1.0 + 1.0 / 9.0),
+                false => sine,
+            };
+            self.values.push(self.rig.reach * (level * wave + about));
+        }
+        self.phase += seconds * rate;
+        (self.amplitude, self.mean) = (amplitude, mean);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_keeps_to_the_rig() {
+        let rig = Rig {
+            reach: 250.0,
+            rate: 5.0,
+            duration: 30.0,
+            step: 0.004,
+        };
+        let menu = rig.menu();
+        assert!(menu.len() > 8);
+        for block in &menu {
+            let (time, values) = rig.play(std::slice::from_ref(block));
+            let peak = values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+            assert!(peak <= 250.0 * (1.0 + 1e-12), "{block:?}: {peak}");
+            assert!(peak >= 0.25 * 250.0, "{block:?}: {peak}");
+            assert!(values[0] == 0.0 && values[values.len() - 1].abs() < 1.0);
+            let lasts = block.seconds(&rig) + 1.0 / (block.rate * rig.rate);
+            assert!((time[time.len() - 1] - lasts).abs() < 0.05);
+            // No faster than the rig: |dF/dt| ≤ 2π f reach, and what easing in adds.
+            let fastest = values.windows(2).map(|v| (v[1] - v[0]).abs() / rig.step);
+            assert!(fastest.fold(0.0, f64::max) < 1.6 * TAU * 5.0 * 250.0);
+        }
+    }
+
+    #[test]
+    fn a_short_test_leaves_out_slow_cycles() {
+        let rig = Rig {
+            reach: 1.0,
+            rate: 1.0,
+            duration: 12.0,
+            step: 0.01,
+        };
+        assert!(rig.menu().iter().all(|b| b.seconds(&rig) <= 4.0));
+    }
+}

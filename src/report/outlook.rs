@@ -1,0 +1,73 @@
+//! What lies beyond the verdict, as values for the page's template.
+
+use minijinja::context;
+use minijinja::value::Value;
+
+use super::quantity::{number, percent, quantity};
+use super::wording::in_words;
+use crate::diagnose::Findings;
+use crate::diagnose::experiment::dummy::Ruling;
+use crate::diagnose::experiment::separability::TOLD;
+
+/// Blocks of the next experiment, in words.
+pub(super) fn blocks(findings: &Findings) -> Vec<String> {
+    let experiment = findings.outlook.experiment.as_ref();
+    experiment.map_or(Vec::new(), |e| e.blocks.clone())
+}
+
+/// The map of what is mistaken for what, the hardest to tell first.
+pub(super) fn separability(findings: &Findings) -> Vec<Value> {
+    let mut lines: Vec<_> = findings.outlook.separability.iter().collect();
+    lines.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
+    let rows = lines.into_iter().map(|line| {
+        let rivals = line.rivals.iter().map(|(name, left)| {
+            let name = match name.as_str() {
+                "none" => "the baseline".to_owned(),
+                name => in_words(name),
+            };
+            format!("{name} ({})", number(*left, 3))
+        });
+        context! {
+            name => in_words(&line.name),
+            taken => if line.fitted { "as fitted" } else { "at a size that would matter" },
+            hidden => line.lambda < TOLD,
+            lambda => number(line.lambda, 3),
+            baseline => number(line.baseline, 3),
+            rivals => rivals.collect::<Vec<_>>().join(", "),
+        }
+    });
+    rows.collect()
+}
+
+/// What the dummy says, a sentence per cause.
+pub(super) fn dummy(findings: &Findings) -> Vec<String> {
+    let lines = findings.outlook.dummy.iter();
+    lines
+        .map(|line| {
+            let (name, fall) = (in_words(&line.name), number(line.fall, 3));
+            let power = number(line.power, 3);
+            match line.ruling {
+                Ruling::Shown => format!("{name}: the dummy shows it (its misfit falls by {fall}); it belongs to the measuring chain."),
+                Ruling::Excluded => format!("{name}: excluded; as large as the records need it, it would leave a χ² of {power} on the dummy, which falls by {fall} only."),
+                Ruling::Open => format!("{name}: open; the dummy could not have shown it (χ² {power})."),
+            }
+        })
+        .collect()
+}
+
+/// The learned correction.
+pub(super) fn correction(findings: &Findings) -> Option<Value> {
+    let correction = findings.outlook.correction.as_ref()?;
+    let terms = correction.terms.iter().map(|(feature, size)| {
+        context! { feature, size => quantity(*size, &correction.unit) }
+    });
+    Some(context! {
+        sentence => format!(
+            "What no cause explains can be predicted in part from the record itself: added to the model it takes the error on unseen data to {} (95 %: {} to {}). It names nothing and enters no joint.",
+            percent(correction.ratio),
+            percent(correction.interval.0),
+            percent(correction.interval.1),
+        ),
+        terms => terms.collect::<Vec<_>>(),
+    })
+}
