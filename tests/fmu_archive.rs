@@ -110,9 +110,18 @@ fn equal_joints_give_equal_archives() {
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");
     let elf = library().display().to_string();
-    // A library of another platform, as far as its first bytes and its stamp go.
-    let mut pe = b"MZ".to_vec();
-    pe.extend(iwan::variables::STAMP.as_bytes());
+    // Libraries of other platforms, as far as their heads and their stamps go.
+    let stamp = iwan::variables::STAMP.as_bytes();
+    let mut pe = vec![0; 64];
+    pe[..2].copy_from_slice(b"MZ");
+    pe[60] = 64;
+    pe.extend(b"PE\0\0\x64\x86");
+    pe.extend(stamp);
+    let mut arm = vec![0; 64];
+    arm[..5].copy_from_slice(b"\x7fELF\x02");
+    arm[18] = 183;
+    arm.extend(stamp);
+    std::fs::write(folder.join("arm.so"), &arm).expect("a file");
     std::fs::write(folder.join("IwanJoint.dll"), &pe).expect("a file");
     let (linux, windows) = (format!("linux64={elf}"), "win64=IwanJoint.dll");
     let arguments = [
@@ -123,9 +132,12 @@ fn several_platforms_in_one_archive() {
         &linux,
         "--binary",
         windows,
+        "--binary",
+        "aarch64-linux=arm.so",
     ];
     let archive = fine(&folder, &arguments);
     assert_eq!(entry(&archive, "binaries/win64/IwanJoint.dll"), pe);
+    assert_eq!(entry(&archive, "binaries/aarch64-linux/IwanJoint.so"), arm);
     assert!(!entry(&archive, "binaries/linux64/IwanJoint.so").is_empty());
     let twice = [
         "joint.json",
@@ -162,7 +174,9 @@ fn every_bad_library_is_told_apart() {
         "expected a 64-bit ELF",
     );
     let stale = folder.join("stale.so");
-    std::fs::write(&stale, b"\x7fELF\x02 of other sources").expect("a file");
+    let mut head = b"\x7fELF\x02 of other sources".to_vec();
+    head[18..20].copy_from_slice(&62_u16.to_le_bytes());
+    std::fs::write(&stale, head).expect("a file");
     refused(
         &folder,
         Some(&stale),
@@ -172,6 +186,14 @@ fn every_bad_library_is_told_apart() {
     refused(&folder, Some(&stale), &arguments, iwan::pack::BUILD_COMMAND);
     let with = |binary: &'static str| ["joint.json", "-o", "joint.fmu", "--binary", binary];
     refused(&folder, None, &with("linux64"), "expected PLATFORM=FILE");
+    let swapped = format!("aarch64-linux={}", library().display());
+    let arguments = ["joint.json", "-o", "joint.fmu", "--binary", &swapped];
+    refused(
+        &folder,
+        None,
+        &arguments,
+        "expected a 64-bit ELF library for ARM",
+    );
     refused(
         &folder,
         None,
