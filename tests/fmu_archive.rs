@@ -301,3 +301,98 @@ fn the_library_exports_the_fmi_functions_and_nothing_else() {
         "{symbols:?}"
     );
 }
+
+/// What the licence file names is what cargo links: a package that comes or goes must change it.
+#[test]
+fn every_linked_package_is_named_in_the_licence() {
+    let tree = Command::new(env!("CARGO"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["tree", "--locked", "--offline", "--no-default-features"])
+        .args(["--edges", "normal,no-proc-macro", "--prefix", "none"])
+        .args(["--format", "{p} {l}"])
+        .output()
+        .expect("cargo runs");
+    assert!(
+        tree.status.success(),
+        "{}",
+        String::from_utf8_lossy(&tree.stderr)
+    );
+    let listing = String::from_utf8(tree.stdout).expect("UTF-8");
+    // `name version licence`; the first line is this package.
+    let mut linked: Vec<_> = listing
+        .lines()
+        .skip(1)
+        .map(|line| line.trim_end_matches(" (*)"))
+        .filter_map(|line| {
+            let mut words = line.splitn(3, ' ');
+            Some((words.next()?, words.nth(1)?))
+        })
+        .collect();
+    linked.sort_unstable();
+    linked.dedup();
+    assert_eq!(linked, iwan::pack::LINKED);
+}
+
+/// What is known of the joint stands in the archive: records, verdict, intervals, rate and date.
+#[test]
+fn the_archive_tells_where_its_numbers_come_from() {
+    let folder = folder("origin");
+    let mut joint: serde_json::Value = serde_json::from_str(JOINT).expect("JSON");
+    joint["provenance"] = serde_json::json!({
+        "records": [{"name": "bolt & nut", "samples": 401, "sha256": "ab12",
+                     "duration": 8.0, "sample_interval": 0.02}],
+        "date": "2024-05-01T12:00:00Z",
+        "tool": "a <test>",
+        "verdict": {"word": "explained", "held_out_rms_ratio": 0.25, "interval": [0.2, 0.3]},
+    });
+    joint["intervals"] = serde_json::json!({"coefficient": [3.5, 4.5], "exponent": [null, 0.5]});
+    let joint = joint.to_string();
+    std::fs::write(folder.join("joint.json"), &joint).expect("a joint");
+    let archive = fine(&folder, &["joint.json", "-o", "joint.fmu"]);
+    let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+    for told in [
+        "bolt &amp; nut",
+        "<code>ab12</code>",
+        "Verdict: <strong>explained</strong>",
+        "0.250 (95 %: 0.200 … 0.300)",
+        "a &lt;test&gt;, 2024-05-01T12:00:00Z",
+        "--stop-time 8 --step-size 0.02",
+        "3.500000e0 … 4.500000e0",
+        "below 5.000000e-1",
+    ] {
+        assert!(page.contains(told), "{told}\n{page}");
+    }
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    assert!(
+        xml.contains("startTime=\"0\" stopTime=\"8.0\" stepSize=\"0.02\""),
+        "{xml}"
+    );
+    assert!(
+        xml.contains("generationDateAndTime=\"2024-05-01T12:00:00Z\""),
+        "{xml}"
+    );
+}
+
+/// The terminal of FMI 3.0 names variables that every joint has.
+#[test]
+fn the_terminal_names_variables_of_the_joint() {
+    let xml = iwan::pack::terminals::xml().expect("XML");
+    std::fs::write(folder("terminals").join("terminalsAndIcons.xml"), &xml).expect("a file");
+    let xml = String::from_utf8(xml).expect("UTF-8");
+    let joint = iwan::saved::read(JOINT, "joint.json")
+        .expect("a joint")
+        .joint;
+    let variables = iwan::variables::Variables::of(&joint, Drive::Force).expect("variables");
+    let named: Vec<_> = xml
+        .split("variableName=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect();
+    assert_eq!(named, ["displacement", "force"]);
+    for name in named {
+        assert!(
+            variables.iter().any(|variable| variable.name == name),
+            "{name}"
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
 use super::input::Records;
+use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::{Findings, diagnose};
@@ -9,7 +10,7 @@ use crate::pack::{Archive, Library};
 use crate::read::Loaded;
 use crate::record::{Measurement, Record};
 use crate::report::{CausePage, html, json, text};
-use crate::saved::{Provenance, RecordUsed, SavedJoint, write};
+use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -44,7 +45,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     }
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
-    let joint = write(&saved(&findings));
+    let joint = write(&saved(&findings, &loaded));
     let drive = match findings.judged.as_str() {
         "force" => Drive::Displacement,
         _ => Drive::Force,
@@ -108,17 +109,13 @@ fn flat(channel: &[f64]) -> bool {
     channel.windows(2).all(|pair| pair[0] == pair[1])
 }
 
-fn saved(findings: &Findings) -> SavedJoint {
-    let records = findings
-        .records
+fn saved(findings: &Findings, loaded: &[Loaded]) -> SavedJoint {
+    let open = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut intervals: BTreeMap<_, _> = findings
+        .joint_parameters
         .iter()
-        .map(|(name, samples, sha256)| RecordUsed {
-            name: name.clone(),
-            samples: *samples,
-            sha256: sha256.clone(),
-        })
+        .map(|estimate| (estimate.name.clone(), estimate.interval.unwrap_or(open)))
         .collect();
-    let mut intervals = BTreeMap::new();
     for cause in findings.causes.iter().filter(|c| c.kind == "joint") {
         for parameter in &cause.parameters {
             if let Some(interval) = parameter.interval {
@@ -129,10 +126,13 @@ fn saved(findings: &Findings) -> SavedJoint {
     SavedJoint {
         joint: findings.joint.clone(),
         provenance: Provenance {
-            records,
-            date: None,
-            tool: Some(format!("iwan {}", env!("CARGO_PKG_VERSION"))),
             remark: Some(findings.summary.clone()),
+            verdict: Some(Judgement {
+                word: findings.verdict.name().to_owned(),
+                held_out_rms_ratio: Some(findings.gain.0).filter(|ratio| ratio.is_finite()),
+                interval: findings.gain.1,
+            }),
+            ..provenance(loaded, "diagnose")
         },
         intervals,
     }

@@ -1,19 +1,30 @@
 //! The .fmu archive: modelDescription.xml, documentation, the joint, the shared libraries.
 
+mod display_unit;
 mod documentation;
 mod error;
+mod experiment;
 mod library;
+mod licence;
 mod model_description;
+mod nominal;
+pub mod terminals;
 mod unit;
 
 pub use error::PackError;
+pub use experiment::Experiment;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};
+pub use licence::LINKED;
+pub use nominal::Nominal;
 
 use crate::joint::{Drive, Joint};
 use crate::saved;
 use crate::variables::{Variables, guid};
 use std::io::{Cursor, Write};
 use zip::write::{SimpleFileOptions, ZipWriter};
+
+/// The icon: a joint between two bodies, and its hysteresis loop. Drawn by scripts/icon.py.
+pub const ICON: &[u8] = include_bytes!("icon.png");
 
 /// The entries of an archive; the same joint, drive and libraries give the same bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,21 +44,26 @@ impl Archive {
         drive: Drive,
         libraries: &[Library],
     ) -> Result<Archive, PackError> {
-        let joint = saved::read(joint_json, file)?.joint;
-        let variables = Variables::of(&joint, drive)?;
-        check_starts(&variables, &joint)?;
+        let saved = saved::read(joint_json, file)?;
+        let variables = Variables::of(&saved.joint, drive)?;
+        check_starts(&variables, &saved.joint)?;
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
-        let xml = model_description::xml(&joint, drive, &variables, &guid).map_err(|error| {
+        let xml = model_description::xml(&saved, drive, &variables, &guid).map_err(|error| {
             PackError::Entry {
                 name: "modelDescription.xml".to_owned(),
                 error,
             }
         })?;
-        let page = documentation::html(&joint, drive, &variables, &guid);
+        let page = documentation::html(&saved, drive, &variables, &guid);
         let mut entries = vec![
             ("modelDescription.xml".to_owned(), xml),
+            ("model.png".to_owned(), ICON.to_vec()),
             ("documentation/index.html".to_owned(), page.into_bytes()),
+            (
+                "documentation/licenses/license.txt".to_owned(),
+                licence::text().into_bytes(),
+            ),
             (
                 "resources/joint.json".to_owned(),
                 joint_json.as_bytes().to_vec(),

@@ -1,7 +1,11 @@
 //! modelDescription.xml.
 
+use super::display_unit::display_unit;
+use super::experiment::Experiment;
+use super::nominal::Nominal;
 use super::unit::base_unit;
-use crate::joint::{Drive, Joint};
+use crate::joint::Drive;
+use crate::saved::SavedJoint;
 use crate::variables::{Causality, MODEL_IDENTIFIER, Variable, Variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -13,10 +17,11 @@ type Attributes<'a> = Vec<(&'a str, String)>;
 
 /// The XML of a joint under a drive. Elements and attributes stand in the order of the FMI 2.0
 /// schema; strict importers stop at any other.
-pub fn xml(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> Result<Vec<u8>> {
+pub fn xml(saved: &SavedJoint, drive: Drive, variables: &Variables, guid: &str) -> Result<Vec<u8>> {
+    let joint = &saved.joint;
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let root = vec![
+    let mut root = vec![
         ("fmiVersion", "2.0".to_owned()),
         ("modelName", MODEL_IDENTIFIER.to_owned()),
         ("guid", guid.to_owned()),
@@ -28,7 +33,11 @@ pub fn xml(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> Re
         ),
         ("variableNamingConvention", "structured".to_owned()),
         ("numberOfEventIndicators", "0".to_owned()),
+        ("license", env!("CARGO_PKG_LICENSE").to_owned()),
     ];
+    // Of the joint, not of the export: the same joint gives the same archive.
+    let date = saved.provenance.date.iter();
+    root.extend(date.map(|date| ("generationDateAndTime", date.clone())));
     within(&mut writer, "fmiModelDescription", root, |writer| {
         empty(writer, "CoSimulation", capabilities())?;
         units(writer, variables)?;
@@ -41,12 +50,18 @@ pub fn xml(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> Re
                 "Instantiated, initialized, reset, terminated",
             )
         })?;
-        let experiment = [("startTime", "0"), ("stopTime", "1"), ("stepSize", "0.001")];
-        empty(writer, "DefaultExperiment", owned(&experiment))?;
+        let experiment = Experiment::of(&saved.provenance);
+        let attributes = vec![
+            ("startTime", "0".to_owned()),
+            ("stopTime", format!("{:?}", experiment.stop_time)),
+            ("stepSize", format!("{:?}", experiment.step_size)),
+        ];
+        empty(writer, "DefaultExperiment", attributes)?;
         within(writer, "ModelVariables", vec![], |writer| {
-            variables
-                .iter()
-                .try_for_each(|variable| scalar_variable(writer, variable, joint))
+            let nominal = Nominal::of(joint);
+            variables.iter().try_for_each(|variable| {
+                scalar_variable(writer, variable, variable.start(joint), nominal)
+            })
         })?;
         structure(writer, variables)
     })?;
@@ -89,7 +104,12 @@ fn units(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
                 ];
                 let present = exponents.into_iter().filter(|&(_, exponent)| exponent != 0);
                 let attributes = present.map(|(name, exponent)| (name, exponent.to_string()));
-                empty(writer, "BaseUnit", attributes.collect())
+                empty(writer, "BaseUnit", attributes.collect())?;
+                display_unit(unit).map_or(Ok(()), |(name, factor)| {
+                    let attributes =
+                        vec![("name", name.to_owned()), ("factor", format!("{factor:?}"))];
+                    empty(writer, "DisplayUnit", attributes)
+                })
             })?;
         }
         Ok(())
@@ -104,7 +124,12 @@ fn log_category(writer: &mut Writer<Vec<u8>>, name: &str, description: &str) -> 
     )
 }
 
-fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Joint) -> Result<()> {
+fn scalar_variable(
+    writer: &mut Writer<Vec<u8>>,
+    variable: &Variable,
+    start: Option<f64>,
+    nominal: Nominal,
+) -> Result<()> {
     let mut attributes = vec![
         ("name", variable.name.clone()),
         ("valueReference", variable.reference.to_string()),
@@ -121,6 +146,8 @@ fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Jo
     attributes.extend(initial.map(|initial| ("initial", initial.to_owned())));
     within(writer, "ScalarVariable", attributes, |writer| {
         let mut real = owned(&[("unit", variable.unit)]);
+        let shown = display_unit(variable.unit);
+        real.extend(shown.map(|(name, _)| ("displayUnit", name.to_owned())));
         let numbers = [
             (
                 "min",
@@ -130,7 +157,8 @@ fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Jo
                 "max",
                 Some(variable.upper).filter(|bound| bound.is_finite()),
             ),
-            ("start", variable.start(joint)),
+            ("nominal", nominal.value(&variable.name, start)),
+            ("start", start),
         ];
         for (name, number) in numbers {
             // `{:?}` is the shortest text that reads back as the same number.
