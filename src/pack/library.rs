@@ -35,20 +35,25 @@ impl Library {
     /// Reads a library and checks its format and its stamp.
     ///
     /// # Errors
-    /// [`PackError::Platform`], [`PackError::UnreadableLibrary`], [`PackError::WrongFormat`],
-    /// [`PackError::StaleLibrary`].
+    /// [`PackError::UnreadableLibrary`], and as [`Library::of_bytes`].
     pub fn read(platform: &str, path: &Path) -> Result<Library, PackError> {
-        let platform = PLATFORMS
-            .into_iter()
-            .find(|&known| known == platform)
-            .ok_or_else(|| PackError::Platform {
-                came: platform.to_owned(),
-            })?;
+        known(platform)?;
+        match std::fs::read(path) {
+            Ok(bytes) => Library::of_bytes(platform, path, bytes),
+            Err(error) => Err(PackError::UnreadableLibrary {
+                path: path.to_owned(),
+                error,
+            }),
+        }
+    }
+
+    /// A library by its content; `path` names it in messages.
+    ///
+    /// # Errors
+    /// [`PackError::Platform`], [`PackError::WrongFormat`], [`PackError::StaleLibrary`].
+    pub fn of_bytes(platform: &str, path: &Path, bytes: Vec<u8>) -> Result<Library, PackError> {
+        let platform = known(platform)?;
         let path = path.to_owned();
-        let bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) => return Err(PackError::UnreadableLibrary { path, error }),
-        };
         let (expected, is_format) = format(platform);
         if !is_format(&bytes) {
             return Err(PackError::WrongFormat {
@@ -57,10 +62,8 @@ impl Library {
                 expected,
             });
         }
-        if !bytes
-            .windows(STAMP.len())
-            .any(|window| window == STAMP.as_bytes())
-        {
+        let mut windows = bytes.windows(STAMP.len());
+        if !windows.any(|window| window == STAMP.as_bytes()) {
             return Err(PackError::StaleLibrary {
                 path,
                 expected: STAMP,
@@ -135,6 +138,15 @@ impl Library {
         let name = crate::variables::MODEL_IDENTIFIER;
         format!("binaries/{folder}/{name}.{suffix}")
     }
+}
+
+fn known(platform: &str) -> Result<&'static str, PackError> {
+    let mut names = PLATFORMS.into_iter();
+    names
+        .find(|&known| known == platform)
+        .ok_or_else(|| PackError::Platform {
+            came: platform.to_owned(),
+        })
 }
 
 /// Platform folder of this machine.

@@ -13,6 +13,8 @@ pub struct Load {
     pub time: Vec<f64>,
     /// Force \[N\] or displacement \[m\], by the drive.
     pub input: Vec<f64>,
+    /// The other quantity as it was measured, where the file has it.
+    pub answer: Option<Vec<f64>>,
 }
 
 /// Samples of the load that is made, and its length in seconds.
@@ -29,14 +31,16 @@ impl Load {
     pub fn read(file: &Path, foreign: &Foreign, drive: Drive) -> anyhow::Result<Load> {
         let table = read::load_table(file, &foreign.options()?)?;
         tell_notes(file, &table.notes);
-        let (quantity, input) = match drive {
-            Drive::Force => (Quantity::Force, &table.force),
-            Drive::Displacement => (Quantity::Displacement, &table.displacement),
+        let (quantity, input, answer) = match drive {
+            Drive::Force => (Quantity::Force, &table.force, &table.displacement),
+            Drive::Displacement => (Quantity::Displacement, &table.displacement, &table.force),
         };
+        let answer = answer.clone();
         let input = input.clone().ok_or_else(|| table.missing(quantity))?;
         Ok(Load {
             time: table.time,
             input,
+            answer,
         })
     }
 
@@ -74,6 +78,7 @@ impl Load {
         Load {
             input: input.collect(),
             time,
+            answer: None,
         }
     }
 
