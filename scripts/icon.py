@@ -24,6 +24,7 @@ def masing(turn: float, x: np.ndarray) -> np.ndarray:
 
 
 def main() -> int:
+    """Command line."""
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2

@@ -23,6 +23,7 @@ MACHINE_PATH = re.compile(rb"/(?:ro" + rb"ot|ho" + rb"me|Us" + rb"ers|wo" + rb"r
 
 
 def text_at(data: bytes, offset: int) -> str:
+    """A C string."""
     return data[offset : data.index(b"\0", offset)].decode()
 
 
@@ -78,6 +79,7 @@ def pe(data: bytes) -> tuple[list[str], list[str]]:
 
 
 def main() -> int:
+    """Command line."""
     platform, path = sys.argv[1], Path(sys.argv[2])
     data = path.read_bytes()
     faults = []

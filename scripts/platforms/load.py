@@ -18,14 +18,17 @@ TOLERANCE = 1e-12
 ROWS = 4001
 DURATION = 4.0
 LARGEST_FORCE = 700.0
-SIGNALS = "force displacement dissipation dissipation_rate stored_energy slip tangent".split()
+SIGNALS = ["force", "displacement", "dissipation", "dissipation_rate", "stored_energy"]
+SIGNALS += ["slip_displacement", "tangent_stiffness"]
 
 
 def bits(value: float) -> str:
+    """The double as 16 hexadecimal digits."""
     return struct.pack(">d", value).hex()
 
 
 def write(path: Path) -> None:
+    """Writes the load and prints its count of rows."""
     lines = []
     for row in range(ROWS):
         time = DURATION * row / (ROWS - 1)
@@ -37,11 +40,13 @@ def write(path: Path) -> None:
 
 
 def read(path: Path) -> list[list[float]]:
+    """Rows that a host printed."""
     rows = [line.split() for line in path.read_text().splitlines()]
     return [[struct.unpack(">d", bytes.fromhex(cell))[0] for cell in row] for row in rows]
 
 
 def compare(reference: Path, other: Path) -> bool:
+    """Prints how far two hosts' rows lie apart; true where that is rounding."""
     expected, came = read(reference), read(other)
     if len(expected) != ROWS or len(came) != ROWS:
         print(f"{len(expected)} and {len(came)} rows instead of {ROWS}")
@@ -63,6 +68,7 @@ def compare(reference: Path, other: Path) -> bool:
 
 
 def main() -> int:
+    """Command line."""
     match sys.argv[1:]:
         case ["write", path]:
             write(Path(path))
