@@ -114,8 +114,7 @@ impl Steps {
 
     /// True where the judged step loses (or invents) more than [`TOO_COARSE`] of the dissipation.
     pub fn too_coarse(&self) -> bool {
-        // A NaN is too coarse.
-        !(self.judged.lost.abs() <= TOO_COARSE)
+        self.judged.lost.is_nan() || self.judged.lost.abs() > TOO_COARSE
     }
 
     /// True where the record itself is sampled so coarsely that the reference is a guess.
