@@ -345,7 +345,9 @@ fn the_archive_tells_where_its_numbers_come_from() {
         "tool": "a <test>",
         "verdict": {"word": "explained", "held_out_rms_ratio": 0.25, "interval": [0.2, 0.3]},
     });
-    joint["intervals"] = serde_json::json!({"coefficient": [3.5, 4.5], "exponent": [null, 0.5]});
+    joint["intervals"] = serde_json::json!({
+        "coefficient": [3.5, 4.5], "exponent": [null, 0.5], "joint_stiffness": [null, null],
+    });
     let joint = joint.to_string();
     std::fs::write(folder.join("joint.json"), &joint).expect("a joint");
     let archive = fine(&folder, &["joint.json", "-o", "joint.fmu"]);
@@ -359,6 +361,8 @@ fn the_archive_tells_where_its_numbers_come_from() {
         "--stop-time 8 --step-size 0.02",
         "3.500000e0 … 4.500000e0",
         "below 5.000000e-1",
+        "<code>joint_stiffness</code>: not bounded by the data",
+        "The response is exact",
     ] {
         assert!(page.contains(told), "{told}\n{page}");
     }

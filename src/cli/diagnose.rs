@@ -118,9 +118,8 @@ fn saved(findings: &Findings, loaded: &[Loaded]) -> SavedJoint {
         .collect();
     for cause in findings.causes.iter().filter(|c| c.kind == "joint") {
         for parameter in &cause.parameters {
-            if let Some(interval) = parameter.interval {
-                intervals.insert(format!("{}.{}", cause.name, parameter.name), interval);
-            }
+            let name = format!("{}.{}", cause.name, parameter.name);
+            intervals.insert(name, parameter.interval.unwrap_or(open));
         }
     }
     SavedJoint {

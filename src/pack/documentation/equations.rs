@@ -10,7 +10,11 @@ pub fn section(page: &mut String, joint: &Joint) {
     page.push_str("<h2>Equations</h2>\n");
     page.push_str(NETWORK);
     let _ = writeln!(page, "<p>{}</p>", density(&joint.density));
-    page.push_str(EXACT);
+    page.push_str(if joint.effects.is_empty() {
+        EXACT
+    } else {
+        EXTENDED
+    });
     for acting in &joint.effects {
         cause(page, acting.effect.name());
     }
@@ -62,6 +66,13 @@ model):</p>
 <li>U = u + F / K<sub>1</sub> (Eq. 52)</li>
 <li>virgin curve G(u) with G&Prime;(u) = &minus;k&sup2; &rho;(k u) (Eq. 30, 31)</li>
 </ul>
+";
+
+const EXTENDED: &str =
+    "<p>With the causes below, the network is a finite set of sliders and each step \
+solves one rising equation for force and displacement. Turning values of the input must fall on \
+communication points, or be told by the input's derivatives; a cause that acts on rates takes the \
+mean rate over the step.</p>
 ";
 
 const EXACT: &str = "<p>The response is exact: Masing's rule with return-point memory on G, or on \

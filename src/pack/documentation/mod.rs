@@ -54,8 +54,8 @@ const SOURCES: &str = "<h2>Sources</h2>
 Sandia National Laboratories, 2001: the model, its equations by number, the identification.</li>
 <li>D. J. Segalman, A Four-Parameter Iwan Model for Lap-Type Joints, J. Appl. Mech. 72 (2005):
 the family <code>four_parameter</code>.</li>
-<li>The numbers: the records named above, by their SHA-256. Tables of parameters name none that
-the records did not reach as if they had.</li>
+<li>The numbers: the records named above, by the SHA-256 of their files; the intervals say which
+parameters the records did not reach.</li>
 </ul>
 <p>Licences: <a href=\"licenses/license.txt\">licenses/license.txt</a>.</p>
 </body>

@@ -53,6 +53,33 @@ pub fn parameters(page: &mut String, saved: &SavedJoint, variables: &Variables) 
         );
     }
     page.push_str("</table>\n");
+    derived(page, saved, variables);
+}
+
+/// What is known of the joint under names that are no parameters of it, SI units.
+fn derived(page: &mut String, saved: &SavedJoint, variables: &Variables) {
+    let is_parameter = |name: &str| variables.parameters.iter().any(|v| v.name == name);
+    let mut others = saved
+        .intervals
+        .iter()
+        .filter(|(name, _)| !is_parameter(name))
+        .peekable();
+    if others.peek().is_none() {
+        return;
+    }
+    page.push_str(
+        "<p>Also estimated from the records, of the joint or of other parametrisations of it (SI \
+         units):</p>\n<ul>\n",
+    );
+    for (name, interval) in others {
+        let _ = writeln!(
+            page,
+            "<li><code>{}</code>: {}</li>",
+            escape(name),
+            words(interval)
+        );
+    }
+    page.push_str("</ul>\n");
 }
 
 /// Shortest text that reads back as the same number; nothing for infinity.
