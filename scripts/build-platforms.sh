@@ -246,8 +246,7 @@ done
 if [ ${#binaries[@]} -gt 0 ]; then
     # The comparison has a joint of its own, whose load is known to stay below full slip.
     "$IWAN" export "$tools/joint.json" -o "$out/compared.fmu" "${binaries[@]}" 2>/dev/null
-    guid=$(unzip -p "$out/compared.fmu" modelDescription.xml 2>/dev/null |
-        sed -n 's/.*guid="\([^"]*\)".*/\1/p' | head -1)
+    guid=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$out/compared.fmu")
     mkdir -p "$out/resources"
     cp "$tools/joint.json" "$out/resources/joint.json"
     rows=$("$PYTHON" "$tools/load.py" write "$out/load.txt")
