@@ -8,12 +8,20 @@ use std::{env, fs};
 
 /// Value references per cause; a cause's glossary may not be longer.
 const REFERENCES_PER_CAUSE: u32 = 16;
+/// Value reference of time; below it stand the signals, above it the parameters.
+const TIME_REFERENCE: &str = "99";
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let mut code = String::new();
     let mut taken = BTreeMap::new();
     signals(&mut code, &mut taken);
+    let time = take(&mut taken, "build.rs", TIME_REFERENCE, "time", 1);
+    let _ = writeln!(
+        code,
+        "/// Value reference of time, which is a variable in FMI 3.0 alone.\n\
+         pub const TIME_REFERENCE: u32 = {time};"
+    );
     references(
         &mut code,
         "parameters.csv",

@@ -12,6 +12,10 @@ use iwan::joint::{
     Simulation, Sliders, SlipLimit, VirginCurve,
 };
 
+#[path = "../tests/fmu/host.rs"]
+#[allow(dead_code)] // an importer's other half
+mod host;
+
 fn main() {
     divan::main();
 }
@@ -183,5 +187,53 @@ mod extended {
     }
 }
 
-// One doStep of the FMU belongs here, as `mod co_simulation`: the same load through the C entry
-// points of an instance, so that its cost over `exact_force_driven` is the price of the boundary.
+/// One step of the FMU: the same load through the C entry points of an instance, so that its cost
+/// over `exact_force_driven` is the price of the boundary.
+mod co_simulation {
+    use super::*;
+    use crate::host::{DISPLACEMENT, FORCE, Resources, Unit};
+    use iwan::fmu::{Status, TRUE, fmi2DoStep, fmi2GetReal, fmi2SetReal};
+
+    /// The joint of `exact_force_driven`.
+    const JOINT: &str = r#"{
+      "format": "iwan-joint/1", "version": "0.1.0", "units": "SI",
+      "density": {"family": "four_parameter", "slip_force": 1000.0, "stiffness": 1e7,
+                  "exponent": -0.4, "ratio": 0.5},
+      "series_stiffness": 5e7, "causes": []
+    }"#;
+
+    fn steps(bencher: Bencher, drive: Drive, (input, output): (u32, u32), amplitude: f64) {
+        let resources = Resources::new(JOINT);
+        let load: Vec<f64> = load().iter().map(|share| amplitude * share).collect();
+        bencher
+            .counter(ItemsCount::new(SAMPLES))
+            .with_inputs(|| Unit::stepping(&resources, drive))
+            .bench_refs(|unit| {
+                let mut answer = 0.0;
+                let mut fine = true;
+                for (i, value) in load.iter().enumerate() {
+                    // SAFETY: a living handle, and one item behind each pointer.
+                    let statuses = unsafe {
+                        [
+                            fmi2SetReal(unit.handle, &input, 1, black_box(value)),
+                            fmi2DoStep(unit.handle, 1e-3 * i as f64, 1e-3, TRUE),
+                            fmi2GetReal(unit.handle, &output, 1, &mut answer),
+                        ]
+                    };
+                    fine &= statuses == [Status::Ok; 3];
+                }
+                assert!(fine);
+                answer
+            });
+    }
+
+    #[divan::bench]
+    fn force_driven(bencher: Bencher) {
+        steps(bencher, Drive::Force, (FORCE, DISPLACEMENT), 800.0);
+    }
+
+    #[divan::bench]
+    fn displacement_driven(bencher: Bencher) {
+        steps(bencher, Drive::Displacement, (DISPLACEMENT, FORCE), 3e-4);
+    }
+}

@@ -106,6 +106,36 @@ fn equal_joints_give_equal_archives() {
     assert_eq!(fine(&folder, &arguments), fine(&folder, &arguments));
 }
 
+/// One library serves both versions of FMI; the token is the GUID.
+#[test]
+fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
+    let folder = folder("three");
+    let arguments = ["joint.json", "-o", "joint.fmu", "--fmi", "3"];
+    let archive = fine(&folder, &arguments);
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    let token = guid(JOINT, Drive::Force);
+    assert!(xml.contains("fmiVersion=\"3.0\""), "{xml}");
+    assert!(
+        xml.contains(&format!("instantiationToken=\"{token}\"")),
+        "{xml}"
+    );
+    assert!(xml.contains("hasEventMode=\"false\""), "{xml}");
+    assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
+    let packed = entry(&archive, "binaries/x86_64-linux/IwanJoint.so");
+    assert_eq!(packed, std::fs::read(library()).expect("the library"));
+    let terminals = entry(&archive, iwan::pack::terminals::ENTRY);
+    assert_eq!(terminals, iwan::pack::terminals::xml().expect("XML"));
+    assert_eq!(
+        entry(&archive, iwan::pack::terminals::ICON_ENTRY),
+        iwan::pack::ICON
+    );
+    let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+    assert!(
+        page.contains("FMI 3.0") && page.contains("fmi3DoStep"),
+        "{page}"
+    );
+}
+
 #[test]
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");
@@ -255,8 +285,8 @@ fn every_bad_input_is_told_apart() {
         "invalid value 'both'",
     );
     check(
-        &["joint.json", "-o", "joint.fmu", "--fmi", "3"],
-        "invalid value '3'",
+        &["joint.json", "-o", "joint.fmu", "--fmi", "4"],
+        "invalid value '4'",
     );
     check(&["joint.json"], "--output");
     std::fs::write(folder.join("cut.json"), &JOINT[..100]).expect("a file");
@@ -281,6 +311,10 @@ fn a_refusal_leaves_the_old_archive() {
     );
 }
 
+/// Functions of fmi3FunctionTypes.h, for all three kinds of units.
+#[cfg(all(target_os = "linux", not(feature = "importer")))]
+const FUNCTIONS_OF_FMI_3: usize = 75;
+
 /// Exactly the FMI functions leave the library. With the feature `importer` another crate adds a
 /// symbol, so that the packed library is looked at by tests/fmu/run_fmpy.py, and this one without.
 #[cfg(all(target_os = "linux", not(feature = "importer")))]
@@ -295,11 +329,17 @@ fn the_library_exports_the_fmi_functions_and_nothing_else() {
         .lines()
         .filter_map(|line| line.split_whitespace().last())
         .collect();
-    assert_eq!(symbols.len(), 34, "{symbols:?}");
-    assert!(
-        symbols.iter().all(|symbol| symbol.starts_with("fmi2")),
+    let of = |version: &str| {
+        let named = symbols.iter().filter(|symbol| symbol.starts_with(version));
+        named.count()
+    };
+    // All functions of fmi2FunctionTypes.h and, for all three kinds of units, fmi3FunctionTypes.h.
+    assert_eq!(
+        (of("fmi2"), of("fmi3")),
+        (34, FUNCTIONS_OF_FMI_3),
         "{symbols:?}"
     );
+    assert_eq!(symbols.len(), 34 + FUNCTIONS_OF_FMI_3, "{symbols:?}");
 }
 
 /// What the licence file names is what cargo links: a package that comes or goes must change it.
@@ -375,6 +415,30 @@ fn the_archive_tells_where_its_numbers_come_from() {
         xml.contains("generationDateAndTime=\"2024-05-01T12:00:00Z\""),
         "{xml}"
     );
+}
+
+/// Folders of both versions; Linux on ARM has one name in either.
+#[test]
+fn platforms_have_the_names_of_each_version() {
+    use iwan::pack::{FmiVersion, Library};
+    for (platform, folder, file) in [
+        ("linux64", "x86_64-linux", "IwanJoint.so"),
+        ("win64", "x86_64-windows", "IwanJoint.dll"),
+        ("darwin64", "x86_64-darwin", "IwanJoint.dylib"),
+        ("linux32", "x86-linux", "IwanJoint.so"),
+        ("win32", "x86-windows", "IwanJoint.dll"),
+        ("darwin32", "x86-darwin", "IwanJoint.dylib"),
+        ("aarch64-linux", "aarch64-linux", "IwanJoint.so"),
+    ] {
+        let library = Library {
+            platform,
+            path: PathBuf::new(),
+            bytes: vec![],
+        };
+        let entries = [FmiVersion::Two, FmiVersion::Three].map(|version| library.entry(version));
+        let expected = [platform, folder].map(|folder| format!("binaries/{folder}/{file}"));
+        assert_eq!(entries, expected);
+    }
 }
 
 /// The terminal of FMI 3.0 names variables that every joint has.

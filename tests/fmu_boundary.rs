@@ -5,6 +5,10 @@ mod host;
 
 #[path = "fmu/call_order.rs"]
 mod call_order;
+#[path = "fmu/communication.rs"]
+mod communication;
+#[path = "fmu/derivatives.rs"]
+mod derivatives;
 #[path = "fmu/instances.rs"]
 mod instances;
 #[path = "fmu/messages.rs"]
@@ -13,5 +17,7 @@ mod messages;
 mod states;
 #[path = "fmu/steps.rs"]
 mod steps;
+#[path = "fmu/three.rs"]
+mod three;
 #[path = "fmu/values.rs"]
 mod values;

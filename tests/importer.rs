@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const CAUSES: &str = r#"[
-  {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5}},
+  {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5, "rounding": 0, "stiffness_ratio": 1}},
   {"name": "viscous_damping", "parameters": {"coefficient": 500.0}}
 ]"#;
 
@@ -110,6 +110,21 @@ fn a_foreign_archive_is_refused() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("text.fmu: is no FMI 2.0 archive"));
     let output = iwan(&folder, &["check", "none.fmu"]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// The importer behind `iwan check` is one of FMI 2.0; an archive of FMI 3.0 is told by its name.
+#[test]
+fn an_archive_of_fmi_3_is_refused_with_a_message() {
+    let folder = exported("three", "[]", "force");
+    let output = iwan(
+        &folder,
+        &["export", "joint.json", "-o", "three.fmu", "--fmi", "3"],
+    );
+    assert_eq!(output.status.code(), Some(0));
+    let output = iwan(&folder, &["check", "three.fmu"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("three.fmu: is no FMI 2.0 archive"), "{told}");
 }
 
 #[test]

@@ -3,6 +3,8 @@
 
 #[path = "physics/against_sliders.rs"]
 mod against_sliders;
+#[path = "physics/bounded.rs"]
+mod bounded;
 #[path = "physics/brute_force.rs"]
 mod brute_force;
 #[path = "physics/cells.rs"]

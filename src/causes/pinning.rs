@@ -4,10 +4,11 @@ use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
 use crate::joint::parameters::Parameter;
 
-/// A stop on either side of the slip after a gap, `F_p = k (u − g₊)₊ − k (−u − g₋)₊`.
+/// A stop on either side of the slip after a gap, `F_p = k c(u − g₊) − r k c(−u − g₋)`: contact
+/// `c(d) = d²/2w` over a rounding `w`, whose surfaces fit more and more, then `c(d) = d − w/2`.
 pub struct Pinning;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 5] = [
     Parameter {
         name: "stiffness",
         symbol: "k_p",
@@ -35,7 +36,36 @@ static PARAMETERS: [Parameter; 3] = [
         vanishes_at: None,
         meaning: "slip towards negative u at which the shank meets the hole",
     },
+    Parameter {
+        name: "rounding",
+        symbol: "w",
+        unit: "m",
+        lower: 0.0,
+        upper: 1.0,
+        vanishes_at: None,
+        meaning: "slip beyond the gap over which the contact comes to its full stiffness",
+    },
+    Parameter {
+        name: "stiffness_ratio",
+        symbol: "r",
+        unit: "1",
+        lower: 0.0,
+        upper: 100.0,
+        vanishes_at: None,
+        meaning: "stiffness of the contact towards negative u over that towards positive",
+    },
 ];
+
+/// Depth of the contact and its slope.
+fn contact(depth: f64, rounding: f64) -> (f64, f64) {
+    if depth <= 0.0 {
+        (0.0, 0.0)
+    } else if depth < rounding {
+        (0.5 * depth * depth / rounding, depth / rounding)
+    } else {
+        (depth - 0.5 * rounding, 1.0)
+    }
+}
 
 impl Effect for Pinning {
     fn name(&self) -> &'static str {
@@ -49,11 +79,12 @@ impl Effect for Pinning {
     }
     fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
         let [stiffness, positive, negative] = [values[0], values[1], values[2]];
-        let depth = (slip - positive).max(0.0) - (-slip - negative).max(0.0);
-        let touching = slip > positive || slip < -negative;
+        let [rounding, ratio] = [values[3], values[4]];
+        let (ahead, ahead_slope) = contact(slip - positive, rounding);
+        let (behind, behind_slope) = contact(-slip - negative, rounding);
         Response {
-            value: stiffness * depth,
-            slope: if touching { stiffness } else { 0.0 },
+            value: stiffness * (ahead - ratio * behind),
+            slope: stiffness * (ahead_slope + ratio * behind_slope),
             damping: 0.0,
         }
     }
@@ -71,7 +102,7 @@ impl Cause for Pinning {
                 "clearance",
             ],
             separated_by: "An amplitude at which the effect sets in (below it the baseline is exact); a dummy specimen shows a sensor's non-linearity and no pinning.",
-            formula: "F_network + k_p max(u - g_+, 0) - k_p max(-u - g_-, 0)",
+            formula: "F_network + k_p c(u - g_+) - r k_p c(-u - g_-), c(d) = d^2/2w for 0 < d < w, d - w/2 beyond",
             source: "Segalman et al., Handbook on Dynamics of Jointed Structures, SAND2009-4164, pinning of macroslip.",
         }
     }
@@ -80,13 +111,13 @@ impl Cause for Pinning {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let stiffness = 0.02 * scale.stiffness;
+        let rounding = 0.05 * scale.displacement;
+        let gaps = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.2].map(|gap| gap * scale.displacement);
         let mut starts = Vec::new();
-        for gap in [0.2, 0.35, 0.5, 0.65, 0.8, 0.9] {
-            let gap = gap * scale.displacement;
-            let away = scale.displacement * 1.2;
-            starts.push(vec![stiffness, gap, gap]);
-            starts.push(vec![stiffness, gap, away]);
-            starts.push(vec![stiffness, away, gap]);
+        for positive in gaps {
+            for negative in gaps {
+                starts.push(vec![stiffness, positive, negative, rounding, 1.0]);
+            }
         }
         starts
     }

@@ -4,19 +4,19 @@ use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::parameters::Parameter;
 
-/// Beyond a level a share of the displacement is lost,
-/// `U_meas = U − q (U − L₊)₊ + q (−U − L₋)₊`; all of it, q = 1, is a clip.
+/// Beyond a level the reading falls behind, `U_meas = U − l(U − L₊) + l(−U − L₋)`, first by
+/// `l(d) = κ d²/2`, from `d = 1/κ` on by all of the rest; κ → ∞ is a clip.
 pub struct SensorSaturation;
 
 static PARAMETERS: [Parameter; 3] = [
     Parameter {
-        name: "lost_share",
-        symbol: "q",
-        unit: "1",
+        name: "sharpness",
+        symbol: "kappa",
+        unit: "1/m",
         lower: 0.0,
-        upper: 1.0,
+        upper: 1e12,
         vanishes_at: Some(0.0),
-        meaning: "share of the displacement beyond the level that is not read; 1 is a clip",
+        meaning: "one over the displacement from the level to where nothing more is read; large for a clip",
     },
     Parameter {
         name: "level_positive",
@@ -25,7 +25,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
-        meaning: "displacement towards positive U at which the range ends",
+        meaning: "displacement towards positive U from which the reading falls behind",
     },
     Parameter {
         name: "level_negative",
@@ -34,9 +34,20 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
-        meaning: "displacement towards negative U at which the range ends",
+        meaning: "displacement towards negative U from which the reading falls behind",
     },
 ];
+
+/// Displacement that is not read at a depth beyond the level.
+fn lost(depth: f64, sharpness: f64) -> f64 {
+    if depth <= 0.0 {
+        0.0
+    } else if depth * sharpness < 1.0 {
+        0.5 * sharpness * depth * depth
+    } else {
+        depth - 0.5 / sharpness
+    }
+}
 
 impl Effect for SensorSaturation {
     fn name(&self) -> &'static str {
@@ -49,12 +60,11 @@ impl Effect for SensorSaturation {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let [share, positive, negative] = [values[0], values[1], values[2]];
-        let beyond = |u: &f64| (u - positive).max(0.0) - (-u - negative).max(0.0);
+        let [sharpness, positive, negative] = [values[0], values[1], values[2]];
         truth
             .displacement
             .iter()
-            .map(|u| -share * beyond(u))
+            .map(|u| lost(-u - negative, sharpness) - lost(u - positive, sharpness))
             .collect()
     }
 }
@@ -71,8 +81,8 @@ impl Cause for SensorSaturation {
                 "clearance",
             ],
             separated_by: "The reading stands still while the force goes on, and leaves the level where it met it, without the hysteresis that a pinned joint keeps; the level belongs to the range of the instrument and shows on a dummy specimen.",
-            formula: "U_measured = U - q max(U - L_+, 0) + q max(-U - L_-, 0)",
-            source: "Piecewise-linear saturation of an amplifier.",
+            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = kappa d^2/2 up to d = 1/kappa, d - 1/(2 kappa) beyond",
+            source: "Compression and clipping of an amplifier: gain that falls linearly to nothing.",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
@@ -85,7 +95,7 @@ impl Cause for SensorSaturation {
         both.iter()
             .chain(&one)
             .map(|level| level.map(|share| (share * scale.displacement).min(away)))
-            .map(|[positive, negative]| vec![0.05, positive, negative])
+            .map(|[positive, negative]| vec![0.2 / scale.displacement, positive, negative])
             .collect()
     }
 }
@@ -101,9 +111,11 @@ mod tests {
             force: vec![],
             displacement: vec![-3.0, -1.0, 0.5, 2.0, 4.0],
         };
-        let added = SensorSaturation.channel(&[1.0, 2.0, 1.5], &truth);
-        assert_eq!(added, [1.5, 0.0, 0.0, 0.0, -2.0]);
-        let half = SensorSaturation.channel(&[0.5, 2.0, 1.5], &truth);
-        assert_eq!(half, [0.75, 0.0, 0.0, 0.0, -1.0]);
+        let clip = SensorSaturation.channel(&[1e12, 2.0, 1.5], &truth);
+        let expected = [1.5, 0.0, 0.0, 0.0, -2.0];
+        assert!(clip.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9));
+        // l(1.5) and l(2) with 1/kappa = 4: the knee is not passed.
+        let soft = SensorSaturation.channel(&[0.25, 2.0, 1.5], &truth);
+        assert_eq!(soft, [0.125 * 2.25, 0.0, 0.0, 0.0, -0.5]);
     }
 }

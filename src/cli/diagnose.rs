@@ -1,14 +1,15 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
-use super::input::Records;
+use super::input::{BesideTable, Records};
 use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
+use crate::diagnose::amplitude_table::diagnose_tables;
 use crate::diagnose::{Findings, diagnose};
 use crate::joint::Drive;
 use crate::pack::{Archive, Library};
 use crate::read::Loaded;
-use crate::record::{Measurement, Record};
+use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
 use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use std::collections::BTreeMap;
@@ -20,6 +21,8 @@ use std::time::Instant;
 pub struct Diagnose {
     #[command(flatten)]
     records: Records,
+    #[command(flatten)]
+    beside: BesideTable,
     /// Folder to write into; made where it is not there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -34,34 +37,44 @@ pub struct Diagnose {
 /// Bad input as in reading; [`BadInput`] for records that hold no time history.
 pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     output::admit_folder(&arguments.output)?;
+    let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
-    let records = histories(&loaded)?;
     let start = Instant::now();
-    let mut findings = diagnose(&records, |stage| {
-        eprintln!("[{:6.2} s] {stage}", start.elapsed().as_secs_f64());
-    })?;
+    let progress = |stage: &str| eprintln!("[{:6.2} s] {stage}", start.elapsed().as_secs_f64());
+    let (mut findings, missing) = match tables(&loaded)? {
+        Some(tables) => {
+            let found = diagnose_tables(&tables, &known, progress)
+                .map_err(|error| BadInput(error.to_string()))?;
+            (found.findings, found.missing)
+        }
+        None => (diagnose(&histories(&loaded)?, progress)?, None),
+    };
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
     }
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
-    let joint = write(&saved(&findings, &loaded));
+    let joint = match &missing {
+        None => Some(write(&saved(&findings, &loaded))),
+        Some(why) => {
+            eprintln!("neither joint.json nor joint.fmu is written: {why}");
+            None
+        }
+    };
     let drive = match findings.judged.as_str() {
         "force" => Drive::Displacement,
         _ => Drive::Force,
     };
-    let library = Library::of_this_machine()
-        .map_err(|error| eprintln!("no joint.fmu is written: {error}"))
-        .ok();
-    let archive = library
-        .map(|library| Archive::new(&joint, "joint.json", drive, &[library])?.bytes())
-        .transpose()?;
+    let archive = match &joint {
+        Some(joint) => archive(joint, drive)?,
+        None => None,
+    };
     output::make_folder(&arguments.output)?;
     let mut files = vec![
         ("report.html", page.into_bytes()),
         ("diagnosis.json", diagnosis.clone().into_bytes()),
-        ("joint.json", joint.into_bytes()),
     ];
+    files.extend(joint.map(|text| ("joint.json", text.into_bytes())));
     files.extend(archive.map(|bytes| ("joint.fmu", bytes)));
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
@@ -75,6 +88,35 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     match arguments.json {
         true => output::print(&format!("{diagnosis}\n")),
         false => output::print(&text::render(&findings)),
+    }
+}
+
+/// The unit for this machine; said and left out where there is no library for it.
+fn archive(joint: &str, drive: Drive) -> anyhow::Result<Option<Vec<u8>>> {
+    let library = Library::of_this_machine()
+        .map_err(|error| eprintln!("no joint.fmu is written: {error}"))
+        .ok();
+    let bytes =
+        library.map(|library| Archive::new(joint, "joint.json", drive, &[library])?.bytes());
+    Ok(bytes.transpose()?)
+}
+
+/// The amplitude tables, where the files are all tables; `None` where none is.
+fn tables(loaded: &[Loaded]) -> Result<Option<Vec<AmplitudeTable>>, BadInput> {
+    let tables: Vec<AmplitudeTable> = loaded
+        .iter()
+        .filter_map(|loaded| match &loaded.measurement {
+            Measurement::Amplitudes(table) => Some(table.clone()),
+            Measurement::History(_) => None,
+        })
+        .collect();
+    match tables.len() {
+        0 => Ok(None),
+        count if count == loaded.len() => Ok(Some(tables)),
+        _ => Err(BadInput(format!(
+            "{} is an amplitude table beside time histories: diagnose the two apart",
+            tables[0].name
+        ))),
     }
 }
 
@@ -98,7 +140,7 @@ fn histories(loaded: &[Loaded]) -> Result<Vec<Record>, BadInput> {
             }
             Measurement::History(record) => Ok(record.clone()),
             Measurement::Amplitudes(table) => Err(BadInput(format!(
-                "{} is an amplitude table: it has no time history to diagnose; `iwan identify` reads it",
+                "{} is an amplitude table, no time history",
                 table.name
             ))),
         })

@@ -3,7 +3,7 @@
 use super::simulate::DriveName;
 use super::{BadInput, output};
 use crate::joint::Drive;
-use crate::pack::{Archive, Library, PackError};
+use crate::pack::{Archive, FmiVersion, Library, PackError};
 use crate::variables::VariableError;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub struct Export {
     #[arg(long, value_enum, default_value = "force")]
     drive: DriveName,
     /// Version of FMI
-    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = ["2"])]
+    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = ["2", "3"])]
     fmi: String,
     /// A shared library to pack, e.g. `win64=IwanJoint.dll`; may be given once per platform. By
     /// default the one that was built for this machine
@@ -41,7 +41,12 @@ pub fn run(arguments: &Export) -> anyhow::Result<()> {
         DriveName::Force => Drive::Force,
         DriveName::Displacement => Drive::Displacement,
     };
-    let archive = archive(&text, &arguments.joint, drive, &arguments.binary).map_err(sorted)?;
+    let version = match arguments.fmi.as_str() {
+        "3" => FmiVersion::Three,
+        _ => FmiVersion::Two,
+    };
+    let archive = archive(version, &text, &arguments.joint, drive, &arguments.binary);
+    let archive = archive.map_err(sorted)?;
     let bytes = archive.bytes().map_err(sorted)?;
     output::write(&arguments.output, |out| Ok(out.write_all(&bytes)?))?;
     for name in archive.names() {
@@ -51,6 +56,7 @@ pub fn run(arguments: &Export) -> anyhow::Result<()> {
 }
 
 fn archive(
+    version: FmiVersion,
     text: &str,
     file: &Path,
     drive: Drive,
@@ -64,7 +70,8 @@ fn archive(
             .map(|named| Library::named(named))
             .collect::<Result<_, _>>()?
     };
-    Archive::new(text, &file.display().to_string(), drive, &libraries)
+    let file = file.display().to_string();
+    Archive::of_version(version, text, &file, drive, &libraries)
 }
 
 /// Files that the output must not replace.

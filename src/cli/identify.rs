@@ -5,7 +5,7 @@ mod json;
 mod text;
 
 use super::BadInput;
-use super::input::Records;
+use super::input::{BesideTable, Records};
 use super::output;
 use crate::saved::SavedJoint;
 use found::Found;
@@ -17,6 +17,8 @@ use std::path::{Path, PathBuf};
 pub struct Identify {
     #[command(flatten)]
     records: Records,
+    #[command(flatten)]
+    beside: BesideTable,
     /// File to write
     #[arg(short, long, value_name = "JOINT.json", default_value = "joint.json")]
     output: PathBuf,
@@ -27,16 +29,17 @@ pub struct Identify {
 
 /// Identifies, prints the fit report and writes joint.json.
 ///
-/// Of a table taken at phase resonance the report is printed and no joint written: the table does
-/// not hold the joint's own force.
+/// Of an amplitude table that lacks the stiffness, or the joint's own force, the report is printed
+/// and no joint written: what is missing and how to give it is said. That is no error of the input.
 ///
 /// # Errors
-/// Of reading; [`BadInput`] where the records hold no joint.
+/// Of reading; [`BadInput`] where the records hold nothing to identify.
 pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     output::admit(&arguments.output, &arguments.records.paths())?;
+    let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     eprintln!("identifying from {} record(s) …", loaded.len());
-    let found = Found::from(&loaded).map_err(|e| BadInput(e.to_string()))?;
+    let found = Found::from(&loaded, &known).map_err(|e| BadInput(e.to_string()))?;
     let report = if arguments.json {
         json::report(&found)
     } else {
@@ -48,7 +51,13 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     } else {
         output::print(&report)?;
     }
-    let joint = found.joint.as_ref().map_err(|why| BadInput(why.clone()))?;
+    let joint = match &found.joint {
+        Ok(joint) => joint,
+        Err(why) => {
+            eprintln!("{} is not written: {why}", arguments.output.display());
+            return Ok(());
+        }
+    };
     let saved = SavedJoint {
         joint: joint.clone(),
         provenance: super::provenance::provenance(&loaded, "identify"),

@@ -1,6 +1,7 @@
 //! What several subcommands read, and what they say of it.
 
 use super::BadInput;
+use crate::identify::table::Known;
 use crate::joint::Joint;
 use crate::read::{self, Loaded, Options, ReadError};
 use std::path::{Path, PathBuf};
@@ -62,6 +63,43 @@ impl Records {
     /// The files as inputs that no output may replace.
     pub fn paths(&self) -> Vec<&Path> {
         self.files.iter().map(PathBuf::as_path).collect()
+    }
+}
+
+/// What an amplitude table lacks and the engineer knows.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct BesideTable {
+    /// Amplitude tables: stiffness of the joint at small load, where no displacement is kept
+    #[arg(long, value_name = "N/m")]
+    stiffness: Option<f64>,
+    /// Amplitude tables at phase resonance: modal mass, for the joint's own force
+    #[arg(long, value_name = "kg")]
+    modal_mass: Option<f64>,
+}
+
+impl BesideTable {
+    /// The values, checked.
+    ///
+    /// # Errors
+    /// [`BadInput`] for a value that is not positive and finite, or both given.
+    pub fn known(&self) -> Result<Known, BadInput> {
+        for (option, value) in [
+            ("--stiffness", self.stiffness),
+            ("--modal-mass", self.modal_mass),
+        ] {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
+                return Err(BadInput(format!("{option} {value}: must be positive")));
+            }
+        }
+        if self.stiffness.is_some() && self.modal_mass.is_some() {
+            return Err(BadInput(
+                "--stiffness and --modal-mass: one follows from the other; give one".to_string(),
+            ));
+        }
+        Ok(Known {
+            stiffness: self.stiffness,
+            modal_mass: self.modal_mass,
+        })
     }
 }
 

@@ -1,11 +1,14 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
+pub mod amplitude_table;
 mod curves;
 pub mod findings;
 pub mod gain;
 pub mod prepare;
 pub mod search;
 pub mod structure;
+mod tested;
+pub mod trials;
 mod verdict;
 mod words;
 
@@ -13,7 +16,7 @@ pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
 use prepare::{Bench, prepare};
-use search::{Found, dispersion, search};
+use search::{Found, dispersion, quick, search};
 use structure::structure;
 
 use crate::causes::{Kind, find};
@@ -35,13 +38,17 @@ pub fn diagnose(
     let timed = records.iter().all(|r| r.time.is_some());
     progress("noise and baseline");
     let mut bench = prepare(records);
-    progress("searching the catalogue for causes");
-    let mut found = search(&bench, timed, baseline(&bench.train));
     if !bench.noise_is_repeated() {
-        let noise = bench.noise_from(&found.best);
-        bench.weigh(noise);
-        progress("searching again with the noise that the best model leaves");
-        found = search(&bench, timed, baseline(&bench.train));
+        progress("what is noise: a quick search, because too few cycles repeat");
+        for _ in 0..2 {
+            let found = quick(&bench, timed, &baseline(&bench.train));
+            let noise = bench.noise_from(&found);
+            bench.weigh(noise);
+        }
+    }
+    progress("searching the catalogue for causes");
+    let found = search(&bench, timed, baseline(&bench.train));
+    if !bench.noise_is_repeated() {
         let noise = bench.noise_from(&found.best);
         bench.weigh(noise);
     }
@@ -82,7 +89,7 @@ fn assemble(records: &[Record], bench: &Bench, found: Found) -> Result<Findings,
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let verdict = verdict::verdict(
-        named,
+        named.then(|| gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0),
         &structure_before,
         &structure_after,
         bench.noise_is_repeated(),

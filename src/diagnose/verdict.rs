@@ -10,14 +10,17 @@ const STRUCTURED: f64 = 6.0;
 
 /// Structure, as a share of the noise variance, below which it is no concern: a tenth of the
 /// noise in rms is 0.01.
-const NEGLIGIBLE: f64 = 0.02;
+pub const NEGLIGIBLE: f64 = 0.02;
 
 /// Share of the baseline's structure that may be left by a cause whose law is only nearly right.
 const LEFT: f64 = 0.10;
 
 /// The verdict, from what baseline and extended model leave.
+///
+/// `named` is `None` where no cause is; else whether the gain on held-out data is beyond its
+/// scatter, without which nothing counts as explained.
 pub fn verdict(
-    named: bool,
+    named: Option<bool>,
     before: &Structure,
     after: &Structure,
     repeated: bool,
@@ -27,10 +30,10 @@ pub fn verdict(
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too.
     let over = repeated && chi > 1.5;
     match (named, left || over) {
-        (false, false) => Verdict::Clean,
-        (false, true) => Verdict::Unexplained,
-        (true, false) => Verdict::Explained,
-        (true, true) if after.share <= LEFT * before.share && !over => Verdict::Explained,
-        (true, true) => Verdict::PartlyExplained,
+        (None, false) => Verdict::Clean,
+        (None, true) => Verdict::Unexplained,
+        (Some(true), false) => Verdict::Explained,
+        (Some(true), true) if after.share <= LEFT * before.share && !over => Verdict::Explained,
+        (Some(_), _) => Verdict::PartlyExplained,
     }
 }

@@ -1,4 +1,4 @@
-//! Types of fmi2TypesPlatform.h and fmi2FunctionTypes.h.
+//! Types of fmi2TypesPlatform.h and fmi2FunctionTypes.h, and those that FMI 3.0 adds.
 
 use libc::{c_char, c_int, c_void, size_t};
 
@@ -56,6 +56,17 @@ pub type Logger = unsafe extern "C" fn(
     message: *const c_char,
     ...
 );
+
+/// `fmi3LogMessageCallback`.
+pub type LogMessage = unsafe extern "C" fn(
+    environment: *mut c_void,
+    status: c_int,
+    category: *const c_char,
+    message: *const c_char,
+);
+
+/// `fmi3Boolean`: C's `bool`, read as a byte, since a host may send any.
+pub type Boolean3 = u8;
 
 /// `fmi2CallbackFunctions`. Every entry may be NULL.
 #[repr(C)]

@@ -108,3 +108,48 @@ calls! {
     GET_BOOLEAN_STATUS "fmi2GetBooleanStatus" [S T];
     GET_STRING_STATUS "fmi2GetStringStatus" [S T];
 }
+
+// FMI 3.0, section 4.2, states of co-simulation without event mode: Step Mode is `stepping`.
+calls! {
+    SET_DEBUG_LOGGING_3 "fmi3SetDebugLogging" [I N S T B];
+    ENTER_INITIALIZATION_MODE_3 "fmi3EnterInitializationMode" [I];
+    EXIT_INITIALIZATION_MODE_3 "fmi3ExitInitializationMode" [N];
+    TERMINATE_3 "fmi3Terminate" [S];
+    RESET_3 "fmi3Reset" [I N S T B];
+    GET_FLOAT64_3 "fmi3GetFloat64" [N S T];
+    SET_FLOAT64_3 "fmi3SetFloat64" [I N S];
+    GET_FMU_STATE_3 "fmi3GetFMUState" [I N S T];
+    SET_FMU_STATE_3 "fmi3SetFMUState" [I N S T B];
+    FREE_FMU_STATE_3 "fmi3FreeFMUState" [I N S T B];
+    SERIALIZED_FMU_STATE_SIZE_3 "fmi3SerializedFMUStateSize" [I N S T B];
+    SERIALIZE_FMU_STATE_3 "fmi3SerializeFMUState" [I N S T B];
+    DESERIALIZE_FMU_STATE_3 "fmi3DeserializeFMUState" [I N S T B];
+    GET_DIRECTIONAL_DERIVATIVE_3 "fmi3GetDirectionalDerivative" [N S T];
+    GET_ADJOINT_DERIVATIVE_3 "fmi3GetAdjointDerivative" [N S T];
+    GET_OUTPUT_DERIVATIVES_3 "fmi3GetOutputDerivatives" [S T];
+    DO_STEP_3 "fmi3DoStep" [S];
+}
+
+/// A function that reads variables of a type that none has.
+pub const fn reading(name: &'static str) -> Call {
+    Call {
+        name,
+        allowed: &[N, S, T],
+    }
+}
+
+/// A function that sets variables of a type that none has.
+pub const fn setting(name: &'static str) -> Call {
+    Call {
+        name,
+        allowed: &[I, N, S],
+    }
+}
+
+/// A function that is refused for another reason than the mode.
+pub const fn anywhere(name: &'static str) -> Call {
+    Call {
+        name,
+        allowed: &[I, N, S, T, B],
+    }
+}

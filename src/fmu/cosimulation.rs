@@ -11,29 +11,35 @@ use super::pointers::{self, Destination};
 use super::refusal::Refusal;
 use libc::{c_char, c_int, c_uint, size_t};
 
-/// Not offered: `tangent_stiffness` is the derivative, as a variable.
+/// Derivatives of answers with respect to the input, times its differential: the algorithmic
+/// tangent of the last step, one-sided along its direction.
 ///
 /// # Safety
-/// As the FMI standard asks: a handle of this library.
+/// As the FMI standard asks: a handle of this library, the counted items in each array.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: Component,
-    _unknowns: *const c_uint,
-    _unknown_count: size_t,
-    _knowns: *const c_uint,
-    _known_count: size_t,
-    _known_differentials: *const f64,
-    _unknown_differentials: *mut f64,
+    unknowns: *const c_uint,
+    unknown_count: size_t,
+    knowns: *const c_uint,
+    known_count: size_t,
+    known_differentials: *const f64,
+    unknown_differentials: *mut f64,
 ) -> Status {
-    let refusal = Refusal::NotOffered {
-        capability: "providesDirectionalDerivative",
+    // SAFETY: arrays as the standard asks.
+    let body = |instance: &mut Instance| unsafe {
+        let unknowns = pointers::slice("vUnknown_ref", unknowns, unknown_count)?;
+        instance.check_knowns(pointers::slice("vKnown_ref", knowns, known_count)?)?;
+        let seeds = pointers::slice("dvKnown", known_differentials, known_count)?;
+        let places = Destination::new("dvUnknown", unknown_differentials, unknown_count)?;
+        // There is one input: named twice, its differentials add up.
+        let seed: f64 = seeds.iter().sum();
+        instance.slopes(unknowns, |place, slope| {
+            places.write_at(place, slope * seed)
+        })
     };
     // SAFETY: handle as the standard asks.
-    unsafe {
-        call(component, calls::GET_DIRECTIONAL_DERIVATIVE, |_| {
-            Err(refusal)
-        })
-    }
+    unsafe { call(component, calls::GET_DIRECTIONAL_DERIVATIVE, body) }
 }
 
 /// Takes time derivatives of the input, orders 1 to 3, for the next step.
@@ -58,23 +64,26 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     unsafe { call(component, calls::SET_REAL_INPUT_DERIVATIVES, body) }
 }
 
-/// Not offered: the largest order is zero.
+/// First time derivatives of answers at the end of the last step.
 ///
 /// # Safety
-/// As the FMI standard asks: a handle of this library.
+/// As the FMI standard asks: a handle of this library, `count` items in each array.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     component: Component,
-    _references: *const c_uint,
+    references: *const c_uint,
     count: size_t,
-    _orders: *const c_int,
-    _values: *mut f64,
+    orders: *const c_int,
+    values: *mut f64,
 ) -> Status {
-    let body = |_: &mut Instance| match count {
-        0 => Ok(()),
-        _ => Err(Refusal::NotOffered {
-            capability: "maxOutputDerivativeOrder",
-        }),
+    // SAFETY: arrays as the standard asks.
+    let body = |instance: &mut Instance| unsafe {
+        let references = pointers::slice("vr", references, count)?;
+        let orders = pointers::slice("order", orders, count)?;
+        let places = Destination::new("value", values, count)?;
+        instance.output_derivatives(references, orders, |place, rate| {
+            places.write_at(place, rate)
+        })
     };
     // SAFETY: handle as the standard asks.
     unsafe { call(component, calls::GET_REAL_OUTPUT_DERIVATIVES, body) }

@@ -73,6 +73,7 @@ mod tests {
     use super::super::bundle::Bundle;
     use super::super::calls;
     use super::super::calls::Mode;
+    use super::super::logger::Host;
     use super::*;
     use crate::joint::{Density, Drive, Joint};
 
@@ -84,7 +85,7 @@ mod tests {
             drive: Drive::Force,
             guid: String::new(),
         };
-        Instance::new(bundle, "tested", None, false).unwrap()
+        Instance::new(bundle, "tested", Host::Two(None), false).unwrap()
     }
 
     fn message<T>(outcome: Result<T, Refusal>) -> String {

@@ -1,13 +1,17 @@
 //! One instance: a joint with its parameters, its place in the call order, its motion.
 
 use super::bundle::Bundle;
-use super::c_types::CallbackFunctions;
 use super::calls::Mode;
-use super::logger::{Category, Messenger};
+use super::derivatives::Rates;
+use super::logger::{Category, Host, Messenger, Standard};
 use super::refusal::Refusal;
 use super::stepping::InputDerivatives;
 use crate::joint::{Drive, Joint, Simulation};
 use crate::variables::Variables;
+
+/// Turning points that an instance remembers: a ring-down of 2000 cycles finds room, in 128 KiB.
+/// What happens beyond is said at [`ExactResponse::bounded`](crate::joint::ExactResponse::bounded).
+pub const TURNING_POINTS: usize = 4096;
 
 /// One instance of the exported joint. Owns all it uses; nothing is shared between instances.
 #[derive(Debug)]
@@ -40,6 +44,10 @@ pub struct Motion {
     pub simulation: Option<Simulation>,
     /// Mean power dissipated over the last communication step \[W\].
     pub dissipation_rate: f64,
+    /// Length of the last communication step \[s\].
+    pub step: f64,
+    /// Time derivatives of the answers at its end.
+    pub rates: Rates,
 }
 
 impl Motion {
@@ -51,22 +59,19 @@ impl Motion {
             derivatives: InputDerivatives::NONE,
             simulation: None,
             dissipation_rate: 0.0,
+            step: 0.0,
+            rates: Rates::default(),
         }
     }
 }
 
 impl Instance {
     /// A fresh instance of the archive's joint.
-    pub fn new(
-        bundle: Bundle,
-        name: &str,
-        callbacks: Option<CallbackFunctions>,
-        debug: bool,
-    ) -> Result<Instance, Refusal> {
+    pub fn new(bundle: Bundle, name: &str, host: Host, debug: bool) -> Result<Instance, Refusal> {
         let variables = Variables::of(&bundle.joint, bundle.drive)?;
         Ok(Instance {
             mode: Mode::Instantiated,
-            messenger: Messenger::new(callbacks, name, debug),
+            messenger: Messenger::new(host, name, debug),
             parameters: variables.values(&bundle.joint),
             variables,
             exported: bundle.joint,
@@ -84,6 +89,11 @@ impl Instance {
     /// The way to the host's log.
     pub fn messenger(&self) -> &Messenger {
         &self.messenger
+    }
+
+    /// What the host speaks.
+    pub(super) fn standard(&self) -> Standard {
+        self.messenger.standard()
     }
 
     /// Tells an event, where the host wants to know.
@@ -142,13 +152,18 @@ impl Instance {
         let simulation = match self.motion.simulation.take() {
             Some(simulation) => simulation,
             None => {
-                let joint = self.variables.apply(&self.exported, &self.parameters)?;
-                let mut simulation = Simulation::new(&joint, self.drive)?;
+                let mut simulation = self.virgin(&self.parameters)?;
                 simulation.step(self.motion.time, self.motion.input)?;
                 simulation
             }
         };
         Ok(self.motion.simulation.insert(simulation))
+    }
+
+    /// A joint with these parameters that has not moved yet.
+    pub(super) fn virgin(&self, parameters: &[f64]) -> Result<Simulation, Refusal> {
+        let joint = self.variables.apply(&self.exported, parameters)?;
+        Ok(Simulation::bounded(&joint, self.drive, TURNING_POINTS)?)
     }
 
     /// Ends the experiment; the last values stay readable.

@@ -5,7 +5,7 @@ use super::c_types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE
 use super::calls;
 use super::entry::{call, stop};
 use super::instance::Instance;
-use super::logger::{Category, Messenger};
+use super::logger::{Category, Host, Messenger};
 use super::pointers;
 use super::refusal::Refusal;
 use crate::variables::STAMP;
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
 ) -> Component {
     // SAFETY: callbacks as the standard asks. They are copied, so that a host whose structure moves
     // does no harm.
-    let callbacks = unsafe { functions.as_ref().copied() };
+    let host = Host::Two(unsafe { functions.as_ref().copied() });
     // SAFETY: strings as the standard asks.
     let texts = || unsafe {
         Ok(Texts {
@@ -77,11 +77,11 @@ pub unsafe extern "C" fn fmi2Instantiate(
             },
         })
     };
-    let made = stop(|| instance(fmu_type, texts()?, callbacks, logging_on != FALSE));
+    let made = stop(|| instance(fmu_type, texts()?, host, logging_on != FALSE));
     made.map_or_else(
         |refusal| {
             let text = format!("fmi2Instantiate: {refusal}");
-            let messenger = Messenger::new(callbacks, "IwanJoint", false);
+            let messenger = Messenger::new(host, "IwanJoint", false);
             messenger.tell(Status::Error, Category::Error, &text);
             std::ptr::null_mut()
         },
@@ -96,17 +96,12 @@ struct Texts<'a> {
     location: &'a str,
 }
 
-fn instance(
-    fmu_type: Type,
-    texts: Texts,
-    callbacks: Option<CallbackFunctions>,
-    debug: bool,
-) -> Result<Instance, Refusal> {
+fn instance(fmu_type: Type, texts: Texts, host: Host, debug: bool) -> Result<Instance, Refusal> {
     if fmu_type != CO_SIMULATION {
         return Err(Refusal::NotCoSimulation { came: fmu_type });
     }
     let bundle = Bundle::read(texts.location, texts.guid)?;
-    let instance = Instance::new(bundle, texts.name, callbacks, debug)?;
+    let instance = Instance::new(bundle, texts.name, host, debug)?;
     instance.tell(&format!("instantiated from {STAMP}"));
     Ok(instance)
 }

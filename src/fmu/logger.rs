@@ -1,6 +1,7 @@
-//! Messages to the host: the variadic logger callback.
+//! Messages to the host: the variadic logger callback of FMI 2.0, and that of FMI 3.0.
 
-use super::c_types::{CallbackFunctions, Status};
+use super::c_types::{CallbackFunctions, LogMessage, Status};
+use libc::c_void;
 use std::ffi::CString;
 
 /// Categories of messages, as modelDescription.xml lists them.
@@ -29,52 +30,102 @@ impl Category {
     }
 }
 
+/// Version of the standard that the host speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standard {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+impl Standard {
+    /// Name of the type of our variables.
+    pub fn real(self) -> &'static str {
+        match self {
+            Standard::Two => "Real",
+            Standard::Three => "Float64",
+        }
+    }
+}
+
+/// Where messages go: one logger per version of the standard, each of which may be NULL.
+#[derive(Debug, Clone, Copy)]
+pub enum Host {
+    /// Callbacks of FMI 2.0; `None` where the host gave NULL.
+    Two(Option<CallbackFunctions>),
+    /// Callback of FMI 3.0 with its environment.
+    Three(Option<LogMessage>, *mut c_void),
+}
+
 /// The host's logger with the name under which the instance speaks.
 #[derive(Debug)]
 pub struct Messenger {
-    callbacks: Option<CallbackFunctions>,
+    host: Host,
     instance: CString,
     /// True while events are told.
     pub debug: bool,
 }
 
 impl Messenger {
-    /// Takes a copy of the callbacks; `None` where the host gave NULL.
-    pub fn new(callbacks: Option<CallbackFunctions>, instance: &str, debug: bool) -> Messenger {
+    /// Takes a copy of the callbacks.
+    pub fn new(host: Host, instance: &str, debug: bool) -> Messenger {
         Messenger {
-            callbacks,
+            host,
             instance: c_text(instance),
             debug,
         }
     }
 
-    /// Hands a text to the host; no logger, no message. The text travels as the *format* of a
-    /// printf, so every `%` in it is doubled and no argument follows.
+    /// What the host speaks.
+    pub fn standard(&self) -> Standard {
+        match self.host {
+            Host::Two(_) => Standard::Two,
+            Host::Three(..) => Standard::Three,
+        }
+    }
+
+    /// Hands a text to the host; no logger, no message. To FMI 2.0 the text travels as the *format*
+    /// of a printf, so every `%` in it is doubled and no argument follows.
     pub fn tell(&self, status: Status, category: Category, text: &str) {
         if category == Category::Event && !self.debug {
             return;
         }
-        let Some(CallbackFunctions {
-            logger: Some(logger),
-            component_environment,
-            ..
-        }) = self.callbacks
-        else {
-            return;
-        };
-        let format = c_text(&text.replace('%', "%%"));
-        let category = c_text(category.name());
-        // SAFETY: the host promises that the logger of fmi2Instantiate stays callable until
-        // fmi2FreeInstance; the texts live to the end of this block and the format consumes no
-        // arguments.
-        unsafe {
-            logger(
+        let name = c_text(category.name());
+        match self.host {
+            Host::Two(Some(CallbackFunctions {
+                logger: Some(logger),
                 component_environment,
-                self.instance.as_ptr(),
-                status as libc::c_int,
-                category.as_ptr(),
-                format.as_ptr(),
-            );
+                ..
+            })) => {
+                let format = c_text(&text.replace('%', "%%"));
+                // SAFETY: the host promises that the logger of fmi2Instantiate stays callable until
+                // fmi2FreeInstance; the texts live to the end of this block and the format consumes
+                // no arguments.
+                unsafe {
+                    logger(
+                        component_environment,
+                        self.instance.as_ptr(),
+                        status as libc::c_int,
+                        name.as_ptr(),
+                        format.as_ptr(),
+                    );
+                }
+            }
+            Host::Three(Some(logger), environment) => {
+                let text = c_text(text);
+                // SAFETY: the host promises that the logger stays callable until fmi3FreeInstance;
+                // the texts live to the end of this block.
+                unsafe {
+                    logger(
+                        environment,
+                        status as libc::c_int,
+                        name.as_ptr(),
+                        text.as_ptr(),
+                    );
+                }
+            }
+            Host::Two(_) | Host::Three(None, _) => (),
         }
     }
 }

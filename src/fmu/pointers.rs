@@ -22,7 +22,7 @@ pub unsafe fn slice<'a, T>(
 }
 
 /// Places of the host's memory to write to. They may be uninitialised, so that no reference to them
-/// is ever made; they are written in one go, after all that can be refused.
+/// is ever made; they are written after all that can be refused.
 #[derive(Debug)]
 pub struct Destination<T> {
     pointer: *mut T,
@@ -44,6 +44,14 @@ impl<T: Copy> Destination<T> {
             check(argument, pointer, count)?;
         }
         Ok(Destination { pointer, count })
+    }
+
+    /// Writes one value; a place beyond the last is none.
+    pub fn write_at(&self, place: usize, value: T) {
+        if place < self.count {
+            // SAFETY: `new` was promised `count` writable places, and this is one of them.
+            unsafe { self.pointer.add(place).write(value) }
+        }
     }
 
     /// Writes the values; no more of them than there are places.

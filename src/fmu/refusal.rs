@@ -81,7 +81,7 @@ pub enum Refusal {
     },
     /// A parameter after the start.
     #[error(
-        "expected parameter `{name}` before fmi2ExitInitializationMode: it is fixed afterwards"
+        "expected parameter `{name}` before the end of Initialization Mode: it is fixed afterwards"
     )]
     Fixed { name: String },
     /// A value outside its bounds, or no number.
@@ -98,8 +98,21 @@ pub enum Refusal {
     /// A derivative that is not used.
     #[error("expected an order from 1 to {largest}, came {came}")]
     Order { largest: usize, came: i32 },
+    /// A derivative of the input or of a parameter.
+    #[error("expected the reference of an output, came {came}")]
+    NotAnswer { came: u32 },
+    /// A variable that is itself a slope, or a slope without a finite value.
+    #[error("`{name}` has no derivative here")]
+    NoDerivative { name: String },
+    /// Counts that do not fit together.
+    #[error("{argument}: expected {expected} items, came {came}")]
+    Count {
+        argument: &'static str,
+        expected: usize,
+        came: usize,
+    },
     /// A service that modelDescription.xml does not offer.
-    #[error("expected no call: {capability} is false in modelDescription.xml")]
+    #[error("expected no call: modelDescription.xml does not offer {capability}")]
     NotOffered { capability: &'static str },
     /// A step that cannot be.
     #[error("communicationStepSize: expected a finite number from 0 on, came {came}")]

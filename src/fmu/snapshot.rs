@@ -8,15 +8,20 @@
 //!     20  36               GUID of joint and drive
 //!     56  1                mode
 //!     57  1                bit 0: stop time given; bit 1: the joint moves
-//!     58  8 × 7            time, stop time, input, its derivatives 1 to 3, dissipation rate
-//!    114  8 + 8 n          parameters, with their count
+//!     58  8 × 14           time, stop time, input, its derivatives 1 to 3, dissipation rate,
+//!                          length of the last step, rates of force, displacement, slip,
+//!                          dissipation, dissipation rate and stored energy
+//!    170  8 + 8 n          parameters, with their count
 //!      …  8 + 8 m          state of the simulation, with its count
 //! ```
 
 use super::calls::Mode;
+use super::derivatives::Rates;
 
 const MAGIC: [u8; 8] = *b"IWANFMU\0";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+/// Numbers before the parameters.
+const NUMBERS: usize = 14;
 const GUID_LENGTH: usize = 36;
 
 /// Why bytes are no state of this joint.
@@ -80,6 +85,10 @@ pub struct Snapshot {
     pub derivatives: [f64; 3],
     /// Mean power over the last step \[W\].
     pub dissipation_rate: f64,
+    /// Length of the last step \[s\].
+    pub step: f64,
+    /// Time derivatives at its end.
+    pub rates: Rates,
     /// Parameters in the order of the variables.
     pub parameters: Vec<f64>,
     /// State of the simulation, where the joint moves.
@@ -90,7 +99,7 @@ impl Snapshot {
     /// Count of bytes of [`Snapshot::to_bytes`]; it grows with the turning points in memory.
     pub fn length(&self) -> usize {
         let numbers = self.parameters.len() + self.simulation.as_ref().map_or(0, Vec::len);
-        MAGIC.len() + 4 + 8 + GUID_LENGTH + 2 + 8 * 7 + 8 + 8 + 8 * numbers
+        MAGIC.len() + 4 + 8 + GUID_LENGTH + 2 + 8 * NUMBERS + 8 + 8 + 8 * numbers
     }
 
     /// The state as bytes.
@@ -104,7 +113,8 @@ impl Snapshot {
         bytes.push(u8::from(self.stop.is_some()) | u8::from(self.simulation.is_some()) << 1);
         let [first, second, third] = self.derivatives;
         let stop = self.stop.unwrap_or_default();
-        for number in [
+        let rates = &self.rates;
+        let numbers: [f64; NUMBERS] = [
             self.time,
             stop,
             self.input,
@@ -112,7 +122,15 @@ impl Snapshot {
             second,
             third,
             self.dissipation_rate,
-        ] {
+            self.step,
+            rates.force,
+            rates.displacement,
+            rates.slip_displacement,
+            rates.dissipation,
+            rates.dissipation_rate,
+            rates.stored_energy,
+        ];
+        for number in numbers {
             bytes.extend(number.to_le_bytes());
         }
         for numbers in [
@@ -166,6 +184,15 @@ impl Snapshot {
             reader.number("derivatives")?,
         ];
         let dissipation_rate = reader.number("dissipation rate")?;
+        let step = reader.number("step")?;
+        let rates = Rates {
+            force: reader.number("rates")?,
+            displacement: reader.number("rates")?,
+            slip_displacement: reader.number("rates")?,
+            dissipation: reader.number("rates")?,
+            dissipation_rate: reader.number("rates")?,
+            stored_energy: reader.number("rates")?,
+        };
         let parameters = reader.numbers("parameters")?;
         let simulation = reader.numbers("simulation")?;
         if !reader.0.is_empty() {
@@ -179,6 +206,8 @@ impl Snapshot {
             input,
             derivatives,
             dissipation_rate,
+            step,
+            rates,
             parameters,
             simulation: (flags & 2 != 0).then_some(simulation),
         })

@@ -1,7 +1,7 @@
 //! Saved states: fmi2GetFMUstate to fmi2DeSerializeFMUstate.
 
 use super::c_types::{Component, FmuState, Status};
-use super::calls;
+use super::calls::{self, Call};
 use super::entry::call;
 use super::instance::{Instance, Motion};
 use super::pointers::{self, Destination};
@@ -23,6 +23,8 @@ impl Instance {
             input: motion.input,
             derivatives: motion.derivatives.0,
             dissipation_rate: motion.dissipation_rate,
+            step: motion.step,
+            rates: motion.rates,
             parameters: self.parameters.clone(),
             simulation: motion.simulation.as_ref().map(Simulation::state),
         }
@@ -31,18 +33,19 @@ impl Instance {
     /// Puts back a state of the same joint, mode included; on a refusal nothing changes.
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Refusal> {
         self.check(snapshot)?;
-        let simulation = snapshot.simulation.as_ref().map(|state| {
-            let mut simulation = match &self.motion.simulation {
-                // With the same parameters the tables of the joint need not be made again.
-                Some(simulation) if snapshot.parameters == self.parameters => simulation.clone(),
-                _ => {
-                    let joint = self.variables.apply(&self.exported, &snapshot.parameters)?;
-                    Simulation::new(&joint, self.drive)?
-                }
-            };
-            simulation.restore(state).map(|()| simulation)
-        });
-        let simulation = simulation.transpose()?;
+        let simulation = match (&snapshot.simulation, self.motion.simulation.as_mut()) {
+            (None, _) => None,
+            // With the same parameters it is the same joint: it goes back in its own memory.
+            (Some(state), Some(simulation)) if snapshot.parameters == self.parameters => {
+                simulation.restore(state)?;
+                self.motion.simulation.take()
+            }
+            (Some(state), _) => {
+                let mut simulation = self.virgin(&snapshot.parameters)?;
+                simulation.restore(state)?;
+                Some(simulation)
+            }
+        };
         self.parameters.clone_from(&snapshot.parameters);
         self.mode = snapshot.mode;
         self.motion = Motion {
@@ -52,6 +55,8 @@ impl Instance {
             derivatives: InputDerivatives(snapshot.derivatives),
             simulation,
             dissipation_rate: snapshot.dissipation_rate,
+            step: snapshot.step,
+            rates: snapshot.rates,
         };
         Ok(())
     }
@@ -98,12 +103,11 @@ unsafe fn keep(handle: *mut FmuState, snapshot: Snapshot) {
     }
 }
 
-/// Saves the complete state; a handle that holds a state already is used again.
+/// Saves the complete state, mode included; a handle that holds a state already is used again.
 ///
 /// # Safety
-/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuState) -> Status {
+/// `component` and, where not NULL, `*state` came from this library.
+pub(super) unsafe fn get(function: Call, component: Component, state: *mut FmuState) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: the host gives one place for a handle; `keep` writes it where it is not NULL.
         unsafe {
@@ -112,19 +116,18 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuSt
         }
         Ok(())
     };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::GET_FMU_STATE, body) }
+    // SAFETY: handle by this function's contract.
+    unsafe { call(component, function, body) }
 }
 
 /// Continues from a saved state, in its mode.
 ///
 /// # Safety
-/// As the FMI standard asks: `component` and `state` came from this library.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
-    // SAFETY: handles as the standard asks.
+/// `component` and `state` came from this library.
+pub(super) unsafe fn set(function: Call, component: Component, state: FmuState) -> Status {
+    // SAFETY: handles by this function's contract.
     unsafe {
-        call(component, calls::SET_FMU_STATE, |instance| {
+        call(component, function, |instance| {
             instance.restore(saved(state)?)
         })
     }
@@ -133,9 +136,8 @@ pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) 
 /// Frees a saved state and makes its handle NULL; NULL is legal.
 ///
 /// # Safety
-/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuState) -> Status {
+/// `component` and, where not NULL, `*state` came from this library.
+pub(super) unsafe fn free(function: Call, component: Component, state: *mut FmuState) -> Status {
     let body = |_: &mut Instance| {
         // SAFETY: the host gives NULL or a handle; what it holds was made by `keep` and is freed
         // once, since the handle is NULL afterwards.
@@ -149,8 +151,105 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuS
         }
         Ok(())
     };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::FREE_FMU_STATE, body) }
+    // SAFETY: handle by this function's contract.
+    unsafe { call(component, function, body) }
+}
+
+/// Count of bytes of a saved state.
+///
+/// # Safety
+/// Handles of this library, `size` may be written.
+pub(super) unsafe fn serialized_size(
+    function: Call,
+    component: Component,
+    state: FmuState,
+    size: *mut size_t,
+) -> Status {
+    // SAFETY: handles and place by this function's contract.
+    let body = |_: &mut Instance| unsafe {
+        Destination::new("size", size, 1)?.write(&[saved(state)?.length()]);
+        Ok(())
+    };
+    // SAFETY: handle by this function's contract.
+    unsafe { call(component, function, body) }
+}
+
+/// Writes a saved state as bytes.
+///
+/// # Safety
+/// Handles of this library, `size` bytes at `bytes` may be written.
+pub(super) unsafe fn serialize(
+    function: Call,
+    component: Component,
+    state: FmuState,
+    (bytes, size): (*mut u8, size_t),
+) -> Status {
+    // SAFETY: handles and places by this function's contract.
+    let body = |_: &mut Instance| unsafe {
+        let expected = saved(state)?.length();
+        if size < expected {
+            return Err(Refusal::Buffer {
+                expected,
+                came: size,
+            });
+        }
+        Destination::new("serializedState", bytes, size)?.write(&saved(state)?.to_bytes());
+        Ok(())
+    };
+    // SAFETY: handle by this function's contract.
+    unsafe { call(component, function, body) }
+}
+
+/// Makes a saved state of bytes; a handle that holds a state already is used again.
+///
+/// # Safety
+/// Handles of this library, `size` bytes at `bytes` may be read.
+pub(super) unsafe fn deserialize(
+    function: Call,
+    component: Component,
+    (bytes, size): (*const u8, size_t),
+    state: *mut FmuState,
+) -> Status {
+    // SAFETY: handles and bytes by this function's contract.
+    let body = |instance: &mut Instance| unsafe {
+        Destination::new("FMUstate", state, 1)?;
+        let snapshot = Snapshot::from_bytes(pointers::slice("serializedState", bytes, size)?)?;
+        instance.check(&snapshot)?;
+        keep(state, snapshot);
+        Ok(())
+    };
+    // SAFETY: handle by this function's contract.
+    unsafe { call(component, function, body) }
+}
+
+/// Saves the complete state, mode included; a handle that holds a state already is used again.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuState) -> Status {
+    // SAFETY: handles as the standard asks.
+    unsafe { get(calls::GET_FMU_STATE, component, state) }
+}
+
+/// Continues from a saved state, in its mode.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and `state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
+    // SAFETY: handles as the standard asks.
+    unsafe { set(calls::SET_FMU_STATE, component, state) }
+}
+
+/// Frees a saved state and makes its handle NULL; NULL is legal.
+///
+/// # Safety
+/// As the FMI standard asks: `component` and, where not NULL, `*state` came from this library.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuState) -> Status {
+    // SAFETY: handles as the standard asks.
+    unsafe { free(calls::FREE_FMU_STATE, component, state) }
 }
 
 /// Count of bytes that fmi2SerializeFMUstate needs for this state.
@@ -163,13 +262,9 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     state: FmuState,
     size: *mut size_t,
 ) -> Status {
+    let function = calls::SERIALIZED_FMU_STATE_SIZE;
     // SAFETY: handles and place as the standard asks.
-    let body = |_: &mut Instance| unsafe {
-        Destination::new("size", size, 1)?.write(&[saved(state)?.length()]);
-        Ok(())
-    };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::SERIALIZED_FMU_STATE_SIZE, body) }
+    unsafe { serialized_size(function, component, state, size) }
 }
 
 /// Writes a saved state as bytes that another process, on another machine, can read.
@@ -183,20 +278,9 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     bytes: *mut c_char,
     size: size_t,
 ) -> Status {
+    let place = (bytes.cast(), size);
     // SAFETY: handles and places as the standard asks.
-    let body = |_: &mut Instance| unsafe {
-        let expected = saved(state)?.length();
-        if size < expected {
-            return Err(Refusal::Buffer {
-                expected,
-                came: size,
-            });
-        }
-        Destination::new("serializedState", bytes.cast(), size)?.write(&saved(state)?.to_bytes());
-        Ok(())
-    };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::SERIALIZE_FMU_STATE, body) }
+    unsafe { serialize(calls::SERIALIZE_FMU_STATE, component, state, place) }
 }
 
 /// Makes a saved state of bytes; a handle that holds a state already is used again.
@@ -210,15 +294,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: size_t,
     state: *mut FmuState,
 ) -> Status {
+    let place = (bytes.cast(), size);
     // SAFETY: handles and bytes as the standard asks.
-    let body = |instance: &mut Instance| unsafe {
-        Destination::new("FMUstate", state, 1)?;
-        let snapshot =
-            Snapshot::from_bytes(pointers::slice("serializedState", bytes.cast(), size)?)?;
-        instance.check(&snapshot)?;
-        keep(state, snapshot);
-        Ok(())
-    };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(component, calls::DESERIALIZE_FMU_STATE, body) }
+    unsafe { deserialize(calls::DESERIALIZE_FMU_STATE, component, place, state) }
 }

@@ -1,5 +1,6 @@
 //! One communication step.
 
+use super::derivatives::{Leg, Rates};
 use super::instance::Instance;
 use super::refusal::Refusal;
 
@@ -22,20 +23,32 @@ impl InputDerivatives {
         input + late * (first + late / 2.0 * (second + late / 3.0 * third))
     }
 
-    /// Times \[s\] within a step at which the input turns, in order. The joint remembers turning
-    /// values alone, so that these and the end of the step are all it needs of the polynomial.
-    fn turns_within(self, step: f64) -> Vec<f64> {
+    /// Time derivative of the input at `late` \[s\] after the communication point.
+    fn rate_after(self, late: f64) -> f64 {
         let [first, second, third] = self.0;
-        let mut turns = Vec::with_capacity(2);
+        first + late * (second + late / 2.0 * third)
+    }
+
+    /// Times \[s\] within a step at which the input turns, in order, then infinity. The joint
+    /// remembers turning values alone, so that these and the end of the step are all it needs of
+    /// the polynomial.
+    fn turns_within(self, step: f64) -> [f64; 2] {
+        let [first, second, third] = self.0;
         // Roots of first + second t + third t²/2, in the form that loses no digits.
         let discriminant = second * second - 2.0 * third * first;
-        if discriminant >= 0.0 {
-            let sum = -(second + discriminant.sqrt().copysign(second));
-            turns.extend([sum / third, 2.0 * first / sum]);
+        if discriminant < 0.0 {
+            return [f64::INFINITY; 2];
         }
-        turns.retain(|&turn| turn > 0.0 && turn < step);
-        turns.sort_by(f64::total_cmp);
-        turns
+        let sum = -(second + discriminant.sqrt().copysign(second));
+        let within = |turn: f64| {
+            if turn > 0.0 && turn < step {
+                turn
+            } else {
+                f64::INFINITY
+            }
+        };
+        let (one, other) = (within(sum / third), within(2.0 * first / sum));
+        [one.min(other), one.max(other)]
     }
 }
 
@@ -49,21 +62,43 @@ impl Instance {
         let Some(simulation) = &mut motion.simulation else {
             return Ok(());
         };
-        let turns = motion.derivatives.turns_within(size);
-        if turns.is_empty() {
-            // A single step of the simulation leaves it as before where it refuses.
-            simulation.step(end, motion.derivatives.input_after(motion.input, size))?;
-            motion.dissipation_rate = simulation.output().dissipation_rate;
+        let (given, set) = (motion.derivatives, motion.input);
+        let turns = given.turns_within(size);
+        let legs = 1 + turns.iter().filter(|turn| turn.is_finite()).count();
+        // Where the step begins, then the end of each leg; at most two turns, so three legs.
+        let mut way = [
+            (motion.time, simulation.input()),
+            (end, 0.0),
+            (end, 0.0),
+            (end, 0.0),
+        ];
+        for (place, turn) in turns.into_iter().take(legs - 1).enumerate() {
+            let time = (point + turn).clamp(motion.time, end);
+            way[place + 1] = (time, given.input_after(set, turn));
+        }
+        way[legs] = (end, given.input_after(set, size));
+        let before = simulation.output();
+        let ends = simulation.follow(&way[1..=legs])?;
+        let elapsed = end - motion.time;
+        let moved = elapsed > 0.0 || ends[1] != before;
+        if legs == 1 {
+            motion.dissipation_rate = ends[1].dissipation_rate;
         } else {
-            let mut moved = simulation.clone();
-            for turn in turns {
-                let time = (point + turn).clamp(motion.time, end);
-                moved.step(time, motion.derivatives.input_after(motion.input, turn))?;
+            motion.dissipation_rate = (ends[1].dissipation - before.dissipation) / elapsed;
+        }
+        if moved {
+            let leg = Leg {
+                ends,
+                inputs: [way[legs - 1].1, way[legs].1],
+                input_rate: (given != InputDerivatives::NONE).then(|| given.rate_after(size)),
+            };
+            let slopes = simulation.sensitivity();
+            motion.rates = Rates::of(&leg, &slopes, simulation.has_effects());
+            if elapsed > 0.0 {
+                let beyond_mean = motion.rates.dissipation - motion.dissipation_rate;
+                motion.rates.dissipation_rate = 2.0 * beyond_mean / elapsed;
             }
-            let last = moved.step(end, motion.derivatives.input_after(motion.input, size))?;
-            let lost = last.dissipation - simulation.output().dissipation;
-            motion.dissipation_rate = lost / (end - motion.time);
-            *simulation = moved;
+            motion.step = elapsed;
         }
         motion.time = end;
         motion.derivatives = InputDerivatives::NONE;

@@ -2,39 +2,49 @@
 
 use super::calls::Mode;
 use super::instance::Instance;
+use super::logger::Standard;
 use super::refusal::Refusal;
 use crate::joint::Output;
-use crate::variables::{Causality, Place, Signal, Variable};
+use crate::variables::{Causality, Place, Signal, TIME_REFERENCE, Variable};
 
 /// What a reference means.
-enum Found<'a> {
+pub(super) enum Found<'a> {
     Input(&'a Variable),
     Answer(Signal, &'a Variable),
     /// With its place among the parameters.
     Parameter(usize, &'a Variable),
+    /// The communication point, which only FMI 3.0 knows as a variable.
+    Time,
 }
 
 impl Instance {
-    /// Values [SI] of the variables with these references, in order.
-    pub fn reals(&mut self, references: &[u32]) -> Result<Vec<f64>, Refusal> {
-        // The answer is only asked of the physics where a reference needs it.
-        let mut answer = None;
-        let mut values = Vec::with_capacity(references.len());
+    /// Values [SI] of the variables with these references, handed to `take` in order; nothing is
+    /// handed over where any of them is refused. Allocates nothing.
+    pub fn reals(
+        &mut self,
+        references: &[u32],
+        mut take: impl FnMut(usize, f64),
+    ) -> Result<(), Refusal> {
+        let mut asked = false;
         for &reference in references {
+            asked |= matches!(self.find(reference)?, Found::Answer(..));
+        }
+        // The answer is only asked of the physics where a reference needs it.
+        let answer = if asked {
+            self.answer()?
+        } else {
+            Output::default()
+        };
+        for (place, &reference) in references.iter().enumerate() {
             let value = match self.find(reference)? {
                 Found::Parameter(index, _) => self.parameters[index],
                 Found::Input(_) => self.motion.input,
-                Found::Answer(signal, _) => {
-                    let output = match answer {
-                        Some(output) => output,
-                        None => *answer.insert(self.answer()?),
-                    };
-                    signal.of(&output)
-                }
+                Found::Answer(signal, _) => signal.of(&answer),
+                Found::Time => self.motion.time,
             };
-            values.push(value);
+            take(place, value);
         }
-        Ok(values)
+        Ok(())
     }
 
     /// Sets inputs, and parameters before the start; all of them or, on a refusal, none.
@@ -63,6 +73,12 @@ impl Instance {
                     name: variable.name.clone(),
                 });
             }
+            Found::Time => {
+                return Err(Refusal::NotSettable {
+                    name: "time".to_owned(),
+                    causality: "independent",
+                });
+            }
             Found::Answer(_, variable) => {
                 let causality = variable.causality.name();
                 return Err(Refusal::NotSettable {
@@ -85,7 +101,10 @@ impl Instance {
     }
 
     /// The variable with this reference.
-    fn find(&self, reference: u32) -> Result<Found<'_>, Refusal> {
+    pub(super) fn find(&self, reference: u32) -> Result<Found<'_>, Refusal> {
+        if reference == TIME_REFERENCE && self.standard() == Standard::Three {
+            return Ok(Found::Time);
+        }
         let is_it = |variable: &&Variable| variable.reference == reference;
         if let Some(variable) = self.variables.signals.iter().find(is_it)
             && let Place::Signal(signal) = variable.place
@@ -100,7 +119,7 @@ impl Instance {
             .find(|(_, variable)| is_it(variable))
             .map(|(index, variable)| Found::Parameter(index, variable))
             .ok_or(Refusal::UnknownReference {
-                expected: "Real",
+                expected: self.standard().real(),
                 came: reference,
             })
     }

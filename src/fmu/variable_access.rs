@@ -22,8 +22,8 @@ pub unsafe extern "C" fn fmi2GetReal(
     // SAFETY: arrays as the standard asks.
     let body = |instance: &mut Instance| unsafe {
         let places = Destination::new("value", values, count)?;
-        places.write(&instance.reals(pointers::slice("vr", references, count)?)?);
-        Ok(())
+        let references = pointers::slice("vr", references, count)?;
+        instance.reals(references, |place, value| places.write_at(place, value))
     };
     // SAFETY: handle as the standard asks.
     unsafe { call(component, calls::GET_REAL, body) }

@@ -5,7 +5,7 @@ use super::operators::{Form, Operators};
 use crate::joint::{Acting, Density, Joint, JointError, Sliders, play::Plays};
 
 /// The fitted joint: its dictionary as a finite set of sliders (exactly dual where it was fitted as
-/// plays), K_1 rigid because the network carries all the compliance that the data can tell, and
+/// plays), K_1 where the fit tells it (else rigid: the network carries all the compliance), and
 /// the effects of the joint (those of the measuring chain stay behind).
 ///
 /// # Errors
@@ -40,5 +40,10 @@ pub fn joint(operators: &Operators, fit: &Fit) -> Result<Joint, JointError> {
         .filter(|a| !a.effect.place().is_measurement())
         .cloned()
         .collect();
-    Joint::new(Density::Sliders(sliders), f64::INFINITY, effects)
+    let compliance = fit.series.unwrap_or(0.0);
+    let spring = match compliance > 0.0 {
+        true => 1.0 / compliance,
+        false => f64::INFINITY,
+    };
+    Joint::new(Density::Sliders(sliders), spring, effects)
 }

@@ -1,9 +1,11 @@
 //! The joint refit: dictionary coefficients, offsets and effect parameters together, by
-//! Gauss–Newton steps on the exact march with non-negative coefficients (variable projection after
-//! Kaufman: the dictionary is linear, only effect parameters are stepped).
+//! damped Gauss–Newton (Levenberg–Marquardt) steps on the exact march with non-negative coefficients
+//! (variable projection after Kaufman: the dictionary is linear, only effect parameters are stepped).
 
 use super::nonnegative::Normal;
+use super::operators::Form;
 use super::problem::{Prediction, Problem, Weighing};
+use super::series;
 use crate::joint::effect::Acting;
 
 /// A fitted model.
@@ -15,6 +17,9 @@ pub struct Fit {
     pub offsets: Vec<f64>,
     /// Effects with their fitted values.
     pub effects: Vec<Acting>,
+    /// Compliance of the spring in series \[m/N\] where an effect on the slip tells it apart from
+    /// the network's own; part of the elastic coefficient elsewhere.
+    pub series: Option<f64>,
     /// Whitened sum of squares over the weighted samples.
     pub misfit: f64,
     /// Standard errors of the effects' values in units of the noise, by effect; infinite where the
@@ -25,16 +30,29 @@ pub struct Fit {
 impl Fit {
     /// Predictions of every record, offsets included.
     pub fn predict(&self, problem: &Problem) -> Vec<Prediction> {
-        let mut predictions = problem.predict(&self.coefficients, &self.effects);
+        let mut predictions = problem.predict(&self.coefficients, &self.acting());
         for (prediction, offset) in predictions.iter_mut().zip(&self.offsets) {
             prediction.judged.iter_mut().for_each(|y| *y += offset);
         }
         predictions
     }
+
+    /// Everything that acts in a march of this fit: its effects and the spring in series.
+    pub fn acting(&self) -> Vec<Acting> {
+        let spring = self.series.map(series::acting);
+        self.effects.iter().cloned().chain(spring).collect()
+    }
 }
 
 /// Most Gauss–Newton steps of one refit.
 const STEPS: usize = 10;
+
+/// Dampings tried within one step.
+const TRIALS: usize = 7;
+
+/// First damping of a step that failed undamped, relative to the column's own norm: a derivative
+/// that the dictionary explains to a part in ten thousand is still free to move.
+const LEAST_DAMPING: f64 = 1e-4;
 
 /// Relative fall of the misfit below which a refit ends.
 const SETTLED: f64 = 1e-6;
@@ -42,20 +60,89 @@ const SETTLED: f64 = 1e-6;
 /// The baseline: any Masing joint, no effect. Convex, so its minimum is the global one.
 pub fn baseline(problem: &Problem) -> Fit {
     let zero = vec![0.0; problem.operators.columns()];
-    refine(problem, zero, Vec::new(), 1)
+    let once = Steps {
+        most: 1,
+        ..Steps::full()
+    };
+    refine(problem, zero, Vec::new(), once)
 }
 
 /// Refits everything from the given start.
 pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
-    refine(problem, start.coefficients.clone(), effects, STEPS)
+    begin(problem, start, effects, Steps::full())
 }
 
-/// Refits from the given start with a stated number of steps.
-pub fn refine(
+/// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.
+pub fn refit_below(problem: &Problem, start: &Fit, effects: Vec<Acting>, bound: f64) -> Fit {
+    let steps = Steps {
+        bound,
+        ..Steps::full()
+    };
+    begin(problem, start, effects, steps)
+}
+
+/// Refits with the spring in series among the unknowns where it shows, first without it.
+fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> Fit {
+    let mut coefficients = start.coefficients.clone();
+    let compliance = match (series::shows(&effects), start.series) {
+        (true, Some(compliance)) => compliance,
+        (true, None) => {
+            let fit = refine(problem, coefficients, effects, steps);
+            if fit.misfit > steps.bound {
+                return fit;
+            }
+            let mut split = fit.clone();
+            let compliance = series::start(problem.operators.form, &mut split.coefficients);
+            split.series = Some(compliance);
+            let split = begin(problem, &split, fit.effects.clone(), steps);
+            return if split.misfit < fit.misfit {
+                split
+            } else {
+                fit
+            };
+        }
+        (false, Some(compliance)) => {
+            if problem.operators.form == Form::Play {
+                coefficients[0] += compliance;
+            }
+            return refine(problem, coefficients, effects, steps);
+        }
+        (false, None) => return refine(problem, coefficients, effects, steps),
+    };
+    let mut acting = effects;
+    acting.push(series::acting(compliance));
+    let mut fit = refine(problem, coefficients, acting, steps);
+    fit.series = fit.effects.pop().map(|spring| spring.values[0]);
+    fit.errors.pop();
+    fit
+}
+
+/// When a refit ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Steps {
+    most: usize,
+    /// A refit that would need [`PROSPECT`] more steps like its last one to come below this misfit
+    /// is given up.
+    bound: f64,
+}
+
+/// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
+const PROSPECT: f64 = 4.0;
+
+impl Steps {
+    fn full() -> Steps {
+        Steps {
+            most: STEPS,
+            bound: f64::INFINITY,
+        }
+    }
+}
+
+fn refine(
     problem: &Problem,
     mut coefficients: Vec<f64>,
     mut effects: Vec<Acting>,
-    steps: usize,
+    steps: Steps,
 ) -> Fit {
     let columns = problem.operators.columns();
     let predictions = problem.predict(&coefficients, &effects);
@@ -65,36 +152,43 @@ pub fn refine(
         .map(|a| vec![f64::INFINITY; a.values.len()])
         .collect();
     let mut predictions = predictions;
-    for round in 0..steps {
+    let mut damping = 0.0;
+    for round in 0..steps.most {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);
         let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
         let records = problem.records.len();
+        let first = columns + records;
         let mut bounded = vec![true; normal.size];
         bounded[columns..].iter_mut().for_each(|b| *b = false);
         let solution = normal.solve(&bounded);
         errors = standard_errors(&normal, &solution, columns, records, &effects, &slopes);
-        let moves = &solution[columns + records..];
         let mut accepted = false;
-        let mut length = 1.0;
-        for _ in 0..6 {
-            let trial_coefficients: Vec<f64> = coefficients
-                .iter()
-                .zip(&solution)
-                .map(|(from, to)| from + length * (to - from))
-                .collect();
-            let trial_effects = moved(&effects, &slopes, moves, length);
-            let trial = problem.predict(&trial_coefficients, &trial_effects);
+        for _ in 0..TRIALS {
+            let mut damped = normal.clone();
+            (first..normal.size).for_each(|i| damped.damp(i, damping));
+            let mut solution = damped.solve(&bounded);
+            if hold(&mut damped, &effects, &slopes, &solution[first..], first) {
+                solution = damped.solve(&bounded);
+            }
+            let trial_effects = moved(&effects, &slopes, &solution[first..]);
+            let trial = problem.predict(&solution[..columns], &trial_effects);
             let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-            if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps == 1) {
-                accepted = misfit - trial_misfit > SETTLED * misfit;
-                coefficients = trial_coefficients;
+            if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
+            {
+                let fall = misfit - trial_misfit;
+                accepted = fall > SETTLED * misfit && trial_misfit - PROSPECT * fall < steps.bound;
+                coefficients = solution[..columns].to_vec();
                 effects = trial_effects;
                 predictions = trial;
                 misfit = trial_misfit;
                 offsets = trial_offsets;
+                damping *= 0.1;
                 break;
             }
-            length *= 0.4;
+            if slopes.is_empty() {
+                break;
+            }
+            damping = (10.0 * damping).max(LEAST_DAMPING);
         }
         if !accepted {
             break;
@@ -104,6 +198,7 @@ pub fn refine(
         coefficients,
         offsets,
         effects,
+        series: None,
         misfit,
         errors,
     }
@@ -194,14 +289,35 @@ fn normal(
 }
 
 /// Effects after a step along the moves, kept inside their bounds.
-fn moved(effects: &[Acting], slopes: &[Slope], moves: &[f64], length: f64) -> Vec<Acting> {
+fn moved(effects: &[Acting], slopes: &[Slope], moves: &[f64]) -> Vec<Acting> {
     let mut moved = effects.to_vec();
     for (slope, step) in slopes.iter().zip(moves) {
         let parameter = &effects[slope.effect].effect.parameters()[slope.parameter];
         let value = &mut moved[slope.effect].values[slope.parameter];
-        *value = (*value + length * step * slope.unit).clamp(parameter.lower, parameter.upper);
+        *value = (*value + step * slope.unit).clamp(parameter.lower, parameter.upper);
     }
     moved
+}
+
+/// Takes out of the unknowns what would leave its bounds at once; true where there is such a one.
+fn hold(
+    normal: &mut Normal,
+    effects: &[Acting],
+    slopes: &[Slope],
+    moves: &[f64],
+    first: usize,
+) -> bool {
+    let mut held = false;
+    for (k, (slope, step)) in slopes.iter().zip(moves).enumerate() {
+        let parameter = &effects[slope.effect].effect.parameters()[slope.parameter];
+        let value = effects[slope.effect].values[slope.parameter];
+        let outward = step * slope.unit;
+        if value <= parameter.lower && outward < 0.0 || value >= parameter.upper && outward > 0.0 {
+            normal.hold(first + k);
+            held = true;
+        }
+    }
+    held
 }
 
 fn standard_errors(

@@ -2,6 +2,7 @@
 //! sample. The judged channel it predicts is the simulation, so identification and simulation
 //! cannot disagree.
 
+use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation, Trajectory};
 
@@ -9,15 +10,14 @@ use crate::joint::effect::{Acting, Place, Situation, Trajectory};
 pub struct March<'a> {
     operators: &'a Operators,
     elastic: f64,
-    weights: Vec<f64>,
+    bank: Bank,
     effects: &'a [Acting],
     memories: Vec<Vec<f64>>,
-    positions: Vec<f64>,
-    trial: Vec<f64>,
     last: Situation,
     earlier: Option<(f64, f64)>,
     limits: (f64, f64),
     has: [bool; 7],
+    counts_energy: bool,
 }
 
 /// What one sample gave.
@@ -45,18 +45,18 @@ impl<'a> March<'a> {
         March {
             operators,
             elastic: coefficients[0],
-            weights: operators.spread(&coefficients[1..]).collect(),
+            bank: Bank::new(&operators.thresholds, operators.spread(&coefficients[1..])),
             effects,
             memories: effects
                 .iter()
                 .map(|a| vec![0.0; a.effect.memory()])
                 .collect(),
-            positions: vec![0.0; operators.thresholds.len()],
-            trial: vec![0.0; operators.thresholds.len()],
             last: Situation::default(),
             earlier: None,
             limits: (1.0, 1.0),
             has,
+            // Only slip limits see the energy; without effects it is what the march is asked for.
+            counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
         }
     }
 
@@ -69,12 +69,16 @@ impl<'a> March<'a> {
                 Form::Stop => self.last.slip,
             };
         let share = step.share / SHARED as f64;
-        for (value, cell) in row[1..].iter_mut().zip(self.positions.chunks_exact(SHARED)) {
+        for (value, cell) in row[1..]
+            .iter_mut()
+            .zip(self.bank.positions().chunks_exact(SHARED))
+        {
             *value = cell.iter().sum::<f64>() * share;
         }
     }
 
-    /// Energy dissipated by the network so far [J].
+    /// Energy dissipated by the network so far [J]; counted without effects and where a slip limit
+    /// acts.
     pub fn dissipation(&self) -> f64 {
         self.last.dissipation
     }
@@ -152,44 +156,11 @@ impl<'a> March<'a> {
 
     /// Network output for a trial input, its tangent, the operators' trial positions.
     fn network(&mut self, input: f64) -> (f64, f64) {
-        let (positive, negative) = self.limits;
-        let mut output = self.elastic * input;
-        let mut tangent = self.elastic;
-        match self.operators.form {
-            Form::Play => {
-                for (((trial, &position), &r), &c) in self
-                    .trial
-                    .iter_mut()
-                    .zip(&self.positions)
-                    .zip(&self.operators.thresholds)
-                    .zip(&self.weights)
-                {
-                    let low = input - r * positive;
-                    let high = input + r * negative;
-                    let moved = position < low || position > high;
-                    *trial = position.max(low).min(high);
-                    output += c * *trial;
-                    tangent += if moved { c } else { 0.0 };
-                }
-            }
-            Form::Stop => {
-                let increment = input - self.last.slip;
-                for (((trial, &position), &d), &w) in self
-                    .trial
-                    .iter_mut()
-                    .zip(&self.positions)
-                    .zip(&self.operators.thresholds)
-                    .zip(&self.weights)
-                {
-                    let elastic = position + increment;
-                    let held = elastic.max(-d * negative).min(d * positive);
-                    *trial = held;
-                    output += w * held;
-                    tangent += if held == elastic { w } else { 0.0 };
-                }
-            }
-        }
-        (output, tangent)
+        let (output, tangent) = match self.operators.form {
+            Form::Play => self.bank.plays(input, self.limits),
+            Form::Stop => self.bank.stops(input - self.last.slip, self.limits),
+        };
+        (self.elastic * input + output, self.elastic + tangent)
     }
 
     /// Takes one sample: the true input channel of the form, force [N] or displacement [m].
@@ -336,31 +307,12 @@ impl<'a> March<'a> {
 
     fn accept(&mut self, time: f64, step: f64, answer: (f64, f64, f64, f64)) {
         let (slip, force, displacement, velocity) = answer;
-        let mut dissipated = 0.0;
-        let (positive, negative) = self.limits;
-        for ((&trial, &position), (&threshold, &c)) in self
-            .trial
-            .iter()
-            .zip(&self.positions)
-            .zip(self.operators.thresholds.iter().zip(&self.weights))
-        {
-            dissipated += match self.operators.form {
-                Form::Play => {
-                    let moved = trial - position;
-                    c * threshold
-                        * if moved > 0.0 {
-                            moved * positive
-                        } else {
-                            -moved * negative
-                        }
-                }
-                Form::Stop => {
-                    let slid = slip - self.last.slip - (trial - position);
-                    c * trial * slid
-                }
-            };
-        }
-        std::mem::swap(&mut self.positions, &mut self.trial);
+        let dissipated = match self.operators.form {
+            Form::Play if self.counts_energy => self.bank.slid_plays(self.limits),
+            Form::Stop if self.counts_energy => self.bank.slid_stops(slip - self.last.slip),
+            _ => 0.0,
+        };
+        self.bank.accept();
         let slip_rate = if step > 0.0 {
             (slip - self.last.slip) / step
         } else {

@@ -65,6 +65,20 @@ impl Normal {
         }
     }
 
+    /// Makes moves of unknown `i` dearer by a share of its own square (Levenberg–Marquardt).
+    pub fn damp(&mut self, i: usize, share: f64) {
+        self.gram[i * self.size + i] *= 1.0 + share;
+    }
+
+    /// Keeps unknown `i` at zero.
+    pub fn hold(&mut self, i: usize) {
+        for j in 0..self.size {
+            self.gram[i * self.size + j] = 0.0;
+            self.gram[j * self.size + i] = 0.0;
+        }
+        self.right[i] = 0.0;
+    }
+
     /// Sum of squared residuals at `x`.
     pub fn misfit(&self, x: &[f64]) -> f64 {
         let mut sum = self.square;
@@ -88,6 +102,9 @@ impl Normal {
         let mut passive: Vec<bool> = (0..n).map(|i| !bounded[i] && scale[i] > 0.0).collect();
         let tolerance = 1e-11 * self.square.sqrt();
         self.settle(&mut x, &mut passive, bounded, &scale);
+        // Unknowns that were tried and came straight back: nearly equal columns do that to rounding.
+        // They wait until another one has moved the solution.
+        let mut waiting = vec![false; n];
         for _ in 0..4 * n {
             let gradient = |i: usize| -> f64 {
                 let line = &self.gram[i * n..(i + 1) * n];
@@ -95,7 +112,7 @@ impl Normal {
                 (self.right[i] - product) * scale[i]
             };
             let best = (0..n)
-                .filter(|&i| bounded[i] && !passive[i] && scale[i] > 0.0)
+                .filter(|&i| bounded[i] && !passive[i] && !waiting[i] && scale[i] > 0.0)
                 .map(|i| (i, gradient(i)))
                 .max_by(|a, b| a.1.total_cmp(&b.1));
             match best {
@@ -104,7 +121,10 @@ impl Normal {
                     let before = x.clone();
                     self.settle(&mut x, &mut passive, bounded, &scale);
                     if x == before {
-                        break;
+                        passive[i] = false;
+                        waiting[i] = true;
+                    } else {
+                        waiting.iter_mut().for_each(|w| *w = false);
                     }
                 }
                 _ => break,

@@ -42,9 +42,11 @@ impl Operators {
                 .map(|j| range * (j as f64 / COUNT as f64).powf(1.4))
                 .collect(),
             Form::Stop => {
-                let mut grid: Vec<f64> = (0..COUNT * 2 / 3)
-                    .map(|j| range * 1e-3_f64.powf(1.0 - j as f64 / (COUNT * 2 / 3) as f64))
-                    .chain((1..COUNT / 3).map(|j| range * (j as f64 / (COUNT / 3) as f64)))
+                let small = COUNT * 2 / 3;
+                let large = COUNT - small;
+                let mut grid: Vec<f64> = (0..small)
+                    .map(|j| range * 1e-3_f64.powf(1.0 - j as f64 / small as f64))
+                    .chain((1..=large).map(|j| range * (j as f64 / large as f64)))
                     .collect();
                 grid.sort_by(f64::total_cmp);
                 grid

@@ -30,15 +30,16 @@ pub fn scores(problem: &Problem, current: &Fit, starts: &[Acting]) -> Vec<Score>
 fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score> {
     let records = problem.records.len();
     let columns = problem.operators.columns();
-    let held: usize = current.effects.iter().map(|a| a.values.len()).sum();
+    let acting = current.acting();
+    let held: usize = acting.iter().map(|a| a.values.len()).sum();
     let size = columns + records + held;
-    let at = problem.predict(&current.coefficients, &current.effects);
-    let derivatives = super::fit::slopes(problem, &current.coefficients, &current.effects, &at);
+    let at = problem.predict(&current.coefficients, &acting);
+    let derivatives = super::fit::slopes(problem, &current.coefficients, &acting, &at);
     let extras: Vec<Vec<Vec<f64>>> = batch
         .iter()
-        .map(|acting| {
-            let mut effects = current.effects.clone();
-            effects.push(acting.clone());
+        .map(|tried| {
+            let mut effects = acting.clone();
+            effects.push(tried.clone());
             problem
                 .predict(&current.coefficients, &effects)
                 .iter()
@@ -55,32 +56,27 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
         let (_, measured) = problem.channels(k);
         let mut weighing = Weighing::new(record, size + batch.len() + 1);
         let mut row = vec![0.0; size + batch.len() + 1];
-        problem.pass(
-            k,
-            &current.coefficients,
-            &current.effects,
-            |i, march, step| {
-                march.row(step, &mut row[..columns]);
-                row[columns + k] = 1.0;
-                for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
-                    *value = slope.values[k][i];
-                }
-                for (value, extra) in row[size..].iter_mut().zip(&extras) {
-                    *value = extra[k][i];
-                }
-                row[size + batch.len()] = measured[i] - at[k].judged[i] - current.offsets[k];
-                if let Some(white) = weighing.weigh(i, &row) {
-                    let target = white[size + batch.len()];
-                    common.add(&white[..size], target);
-                    for (b, &value) in white[size..size + batch.len()].iter().enumerate() {
-                        for (sum, other) in cross[b].iter_mut().zip(&white[..size]) {
-                            *sum += value * other;
-                        }
-                        own[b] = (own[b].0 + value * value, own[b].1 + value * target);
+        problem.pass(k, &current.coefficients, &acting, |i, march, step| {
+            march.row(step, &mut row[..columns]);
+            row[columns + k] = 1.0;
+            for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
+                *value = slope.values[k][i];
+            }
+            for (value, extra) in row[size..].iter_mut().zip(&extras) {
+                *value = extra[k][i];
+            }
+            row[size + batch.len()] = measured[i] - at[k].judged[i] - current.offsets[k];
+            if let Some(white) = weighing.weigh(i, &row) {
+                let target = white[size + batch.len()];
+                common.add(&white[..size], target);
+                for (b, &value) in white[size..size + batch.len()].iter().enumerate() {
+                    for (sum, other) in cross[b].iter_mut().zip(&white[..size]) {
+                        *sum += value * other;
                     }
+                    own[b] = (own[b].0 + value * value, own[b].1 + value * target);
                 }
-            },
-        );
+            }
+        });
     }
     common.mirror();
     // Unknowns are moves away from the current fit, where the gradient over its positive

@@ -5,15 +5,19 @@ mod laws;
 mod ledger;
 mod quadrature;
 mod root;
+mod saved;
+mod slopes;
 
 use super::density::Sliders;
 use super::effect::{Acting, Response, Situation};
 use super::network::Network;
+use super::sensitivity::Sensitivity;
 use super::simulation::{Drive, JointError};
 pub(super) use cells::fine_cells;
 use laws::Laws;
 use ledger::{Ledger, Leg};
 use root::{Excess, NoRoot, Scales, rising_root};
+use slopes::End;
 
 /// How far a search goes, in units of the network's own slip range.
 const FARTHEST: f64 = 1e15;
@@ -41,8 +45,15 @@ pub(super) struct Extended {
     laws: Laws,
     now: Situation,
     ledger: Ledger,
+    /// dF/dU with rates held, and all slopes over u as the last step's equation has them.
     tangent: f64,
+    slopes: Sensitivity,
     input: f64,
+    /// Direction of the last step that moved.
+    rising: bool,
+    /// A memory to try things on, and the state to go back to: places that are made once.
+    scratch: Vec<f64>,
+    kept: Vec<f64>,
 }
 
 /// What the joint answers to a step. SI units.
@@ -95,7 +106,17 @@ impl Extended {
             laws,
             now: Situation::default(),
             tangent: 0.0,
+            slopes: Sensitivity {
+                force: 0.0,
+                displacement: 1.0,
+                slip_displacement: 1.0,
+                dissipation: 0.0,
+                stored_energy: 0.0,
+            },
             input: 0.0,
+            rising: true,
+            scratch: Vec::new(),
+            kept: Vec::new(),
         };
         extended.now.displacement = extended.laws.in_load_path(0.0, 0.0).value;
         extended
@@ -103,6 +124,10 @@ impl Extended {
             .begin(extended.laws.slip_limit(&extended.now));
         let start = extended.point(0.0, 0.0, true);
         extended.tangent = start.elastic / start.stretch;
+        extended.slopes.force = start.stiffness;
+        extended.slopes.displacement = start.stretch;
+        extended.scratch = extended.laws.memory().to_vec();
+        extended.kept = Vec::with_capacity(extended.state_length());
         extended
     }
 
@@ -212,7 +237,12 @@ impl Extended {
 
     fn accept(&mut self, time: f64, step: f64, input: f64, slip: f64) {
         let from = self.now;
-        let rising = slip > from.slip || (slip == from.slip && input >= self.input);
+        if slip != from.slip {
+            self.rising = slip > from.slip;
+        } else if input != self.input {
+            self.rising = input > self.input;
+        }
+        let rising = self.rising;
         let point = self.last_digit(self.point(slip, step, rising), slip, input);
         let loss = self.network.accept(slip);
         self.now = Situation {
@@ -229,11 +259,24 @@ impl Extended {
             },
             dissipation: from.dissipation + loss,
         };
-        let works = self.ledger.work(&self.laws, &Leg { from, to: self.now });
+        self.ledger.work(&self.laws, &Leg { from, to: self.now });
+        self.tangent = point.elastic / point.stretch;
+        let end = End {
+            point: &point,
+            now: &self.now,
+            laws: &self.laws,
+            way: point.displacement - from.displacement,
+            sliding: self.network.sliding_force(rising),
+            flexibility: self.flexibility,
+            reach: self.reach,
+        };
+        self.slopes = end.slopes(&mut self.scratch);
         self.laws.remember(&self.now);
-        self.ledger.close(&self.laws, &self.now, &works, loss);
-        if slip != from.slip {
-            self.tangent = point.elastic / point.stretch;
+        self.ledger.close(&self.laws, &self.now, loss);
+        if self.ledger.owes() {
+            // What is lost now only pays the debt: it is told as stored energy until then.
+            self.slopes.stored_energy += self.slopes.dissipation;
+            self.slopes.dissipation = 0.0;
         }
         self.input = input;
     }
@@ -262,77 +305,12 @@ impl Extended {
         self.tangent
     }
 
-    /// Appends the complete state.
-    pub fn save(&self, state: &mut Vec<f64>) {
-        let now = &self.now;
-        state.extend([
-            now.time,
-            now.step,
-            now.force,
-            now.displacement,
-            now.velocity,
-        ]);
-        state.extend([
-            now.slip,
-            now.slip_rate,
-            now.dissipation,
-            self.tangent,
-            self.input,
-        ]);
-        self.network.save(state);
-        self.ledger.save(state);
-        state.extend_from_slice(self.laws.memory());
-    }
-
-    /// Puts back what [`Extended::save`] appended, or says what differs.
-    pub fn restore(&mut self, state: &[f64]) -> Result<(), JointError> {
-        let network = self.network.state_length();
-        let ledger = self.ledger.state_length();
-        let expected = SITUATION + network + ledger + self.laws.memory().len();
-        let [
-            time,
-            step,
-            force,
-            displacement,
-            velocity,
-            slip,
-            slip_rate,
-            dissipation,
-            tangent,
-            input,
-            rest @ ..,
-        ] = state
-        else {
-            return Err(foreign(expected, state.len()));
-        };
-        if state.len() != expected {
-            return Err(foreign(expected, state.len()));
+    /// Slopes of the last answer over its input, see [`Sensitivity`].
+    pub fn sensitivity(&self) -> Sensitivity {
+        let slopes = self.slopes;
+        match self.drive {
+            Drive::Force => slopes.over(slopes.force),
+            Drive::Displacement => slopes.over(slopes.displacement),
         }
-        self.now = Situation {
-            time: *time,
-            step: *step,
-            force: *force,
-            displacement: *displacement,
-            velocity: *velocity,
-            slip: *slip,
-            slip_rate: *slip_rate,
-            dissipation: *dissipation,
-        };
-        (self.tangent, self.input) = (*tangent, *input);
-        let (sliders, rest) = rest.split_at(network);
-        let (account, memory) = rest.split_at(ledger);
-        self.network.restore(sliders);
-        self.ledger.restore(account);
-        self.laws.restore(memory);
-        Ok(())
-    }
-}
-
-/// Numbers before the network's in a saved state.
-const SITUATION: usize = 10;
-
-fn foreign(expected: usize, found: usize) -> JointError {
-    JointError::ForeignState {
-        reason: format!("it has {found} numbers where this joint with its effects has {expected}"),
     }
 }

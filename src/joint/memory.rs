@@ -2,20 +2,8 @@
 
 use super::density::Density;
 use super::simulation::JointError;
+use super::turnings::{Forgotten, Turning, Turnings};
 use super::virgin::VirginCurve;
-
-/// A reversal that the network still remembers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Turning {
-    /// F_r \[N\].
-    force: f64,
-    /// u_r \[m\].
-    slip: f64,
-    /// Loss on the open branches up to here \[J\].
-    open: f64,
-    /// Stored energy here \[J\].
-    stored: f64,
-}
 
 /// A network under prescribed force or slip, by Masing's rule with return-point memory.
 ///
@@ -32,7 +20,7 @@ struct Turning {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactResponse<C = Density> {
     curve: C,
-    turnings: Vec<Turning>,
+    turnings: Turnings,
     force: f64,
     slip: f64,
     /// Sign of the last step that moved; 0 before the first.
@@ -42,18 +30,43 @@ pub struct ExactResponse<C = Density> {
     /// Loss of the loops that have closed \[J\].
     closed: f64,
     dissipation: f64,
+    /// Largest gap in the memory so far, in slip \[m\] and in force \[N\].
+    gap: (f64, f64),
 }
 
 /// Numbers of state before the turning points, and per turning point.
-const HEAD: usize = 7;
+const HEAD: usize = 9;
 const PER_TURNING: usize = 4;
 
 impl<C: VirginCurve> ExactResponse<C> {
-    /// A virgin network at zero force and slip.
+    /// A virgin network at zero force and slip, that remembers whatever the history asks.
     pub fn new(curve: C) -> ExactResponse<C> {
+        ExactResponse::remembering(curve, None)
+    }
+
+    /// A virgin network that remembers at most `most` turning points (four at least) and never
+    /// allocates again.
+    ///
+    /// Up to there it is [`ExactResponse::new`] to the last bit. A reversal that finds no room
+    /// pushes out the loop `(r_i, r_i+1)` that lies closest between its neighbours: it is booked as
+    /// closed, `4 d`, and the memory has a gap between `r_i−1` and `r_i+2`. The answer stays exact
+    /// until the load leaves the loops inside the gap, is then off by no more than
+    ///
+    /// ```text
+    /// force-driven  |δu| ≤ |2 H(|F_i−1 − F_i+2|/2) − |u_i−1 − u_i+2||
+    /// slip-driven   |δF| ≤ |2 G(|u_i−1 − u_i+2|/2) − |F_i−1 − F_i+2||
+    /// ```
+    /// while it crosses the gap, and exact again beyond; a reversal within a gap keeps that error, and
+    /// the errors of gaps within gaps add up. [`ExactResponse::gap`] is the largest gap so far.
+    /// Checked in tests/physics/bounded.rs.
+    pub fn bounded(curve: C, most: usize) -> ExactResponse<C> {
+        ExactResponse::remembering(curve, Some(most))
+    }
+
+    fn remembering(curve: C, most: Option<usize>) -> ExactResponse<C> {
         ExactResponse {
             curve,
-            turnings: Vec::new(),
+            turnings: Turnings::new(most),
             force: 0.0,
             slip: 0.0,
             direction: 0.0,
@@ -61,6 +74,7 @@ impl<C: VirginCurve> ExactResponse<C> {
             stored: 0.0,
             closed: 0.0,
             dissipation: 0.0,
+            gap: (0.0, 0.0),
         }
     }
 
@@ -141,16 +155,43 @@ impl<C: VirginCurve> ExactResponse<C> {
 
     /// dF/du \[N/m\] for going on in the direction of the last step.
     pub fn tangent_stiffness(&self) -> f64 {
-        let way = match self.turnings.last() {
+        self.curve.stiffness(self.way())
+    }
+
+    /// d(dissipation)/du \[N\] for going on in the direction of the last step: what the sliding
+    /// part carries, `s d'(|u − u_r|/2) = s Λ_1(k|u − u_r|/2)`. The rest of F goes into the springs:
+    /// `d(stored)/du = F − d(dissipation)/du`.
+    pub fn sliding_force(&self) -> f64 {
+        self.direction * self.curve.slipped_force(self.way())
+    }
+
+    /// [`ExactResponse::sliding_force`] where the tangent \[N/m\] is known, without asking the curve:
+    /// `Λ_1 = G − u G'` with `G = |F − F_r|/2` on a branch.
+    pub fn sliding_force_with(&self, tangent: f64) -> f64 {
+        let force = match self.turnings.last() {
+            None => self.force.abs(),
+            Some(from) => (self.force - from.force).abs() / 2.0,
+        };
+        self.direction * (force - self.way() * tangent)
+    }
+
+    /// The virgin curve's argument \[m\] at the present point.
+    fn way(&self) -> f64 {
+        match self.turnings.last() {
             None => self.slip.abs(),
             Some(from) => (self.slip - from.slip).abs() / 2.0,
-        };
-        self.curve.stiffness(way)
+        }
     }
 
     /// Count of turning points remembered.
     pub fn depth(&self) -> usize {
-        self.turnings.len()
+        self.turnings.as_slice().len()
+    }
+
+    /// Largest gap in a bounded memory so far, in slip \[m\] under force and in force \[N\] under
+    /// slip; zero while it had room. Crossing one gap the answer is off by no more.
+    pub fn gap(&self) -> (f64, f64) {
+        self.gap
     }
 
     /// The curve it moves on.
@@ -160,10 +201,11 @@ impl<C: VirginCurve> ExactResponse<C> {
 
     /// Complete state as numbers; [`ExactResponse::restore`] continues identically, to the last bit.
     pub fn state(&self) -> Vec<f64> {
-        let mut state = Vec::with_capacity(HEAD + PER_TURNING * self.turnings.len());
+        let mut state = Vec::with_capacity(HEAD + PER_TURNING * self.depth());
         state.extend([self.force, self.slip, self.direction, self.open]);
         state.extend([self.stored, self.closed, self.dissipation]);
-        for t in &self.turnings {
+        state.extend([self.gap.0, self.gap.1]);
+        for t in self.turnings.as_slice() {
             state.extend([t.force, t.slip, t.open, t.stored]);
         }
         state
@@ -185,23 +227,35 @@ impl<C: VirginCurve> ExactResponse<C> {
         if !state.iter().all(|value| value.is_finite()) {
             return Err(foreign("a value is no finite number"));
         }
-        let &[force, slip, direction, open, stored, closed, dissipation] = head else {
+        let &[
+            force,
+            slip,
+            direction,
+            open,
+            stored,
+            closed,
+            dissipation,
+            by_slip,
+            by_force,
+        ] = head
+        else {
             return Err(foreign("too short"));
         };
         let at_rest = direction == 0.0 && force == 0.0 && slip == 0.0 && tail.is_empty();
         if direction.abs() != 1.0 && !at_rest {
             return Err(foreign("no direction of motion"));
         }
-        let turnings: Vec<Turning> = tail
-            .chunks_exact(PER_TURNING)
-            .map(|t| Turning {
-                force: t[0],
-                slip: t[1],
-                open: t[2],
-                stored: t[3],
-            })
-            .collect();
-        let (factor, from) = match turnings.last() {
+        let turnings = tail.chunks_exact(PER_TURNING).map(|t| Turning {
+            force: t[0],
+            slip: t[1],
+            open: t[2],
+            stored: t[3],
+        });
+        if !self.turnings.holds(turnings.len()) {
+            let count = turnings.len();
+            return Err(foreign(&format!("{count} turning points find no room")));
+        }
+        let (factor, from) = match turnings.clone().next_back() {
             None => (1.0, (0.0, 0.0)),
             Some(from) => (2.0, (from.force, from.slip)),
         };
@@ -212,24 +266,45 @@ impl<C: VirginCurve> ExactResponse<C> {
         if (expected - force).abs() > 1e-6 * scale {
             return Err(foreign("force and slip are not on this joint's curve"));
         }
-        self.turnings = turnings;
+        self.turnings.replace(turnings);
         (self.force, self.slip, self.direction) = (force, slip, direction);
         (self.open, self.stored) = (open, stored);
         (self.closed, self.dissipation) = (closed, dissipation);
+        self.gap = (by_slip, by_force);
         Ok(())
     }
 
     /// Remembers the present point where the direction changes.
     fn turn(&mut self, direction: f64) {
         if self.direction == -direction {
-            self.turnings.push(Turning {
+            let here = Turning {
                 force: self.force,
                 slip: self.slip,
                 open: self.open,
                 stored: self.stored,
-            });
+            };
+            if let Some(forgotten) = self.turnings.remember(here) {
+                self.forget(forgotten);
+            }
         }
         self.direction = direction;
+    }
+
+    /// Books a loop that found no room, and the gap that it leaves.
+    fn forget(&mut self, forgotten: Forgotten) {
+        let [first, second] = forgotten.loop_ends;
+        let loss = 4.0
+            * self
+                .curve
+                .leg_dissipation((first.slip - second.slip).abs() / 2.0);
+        // What was lost stays lost: closed from now on, no longer open.
+        self.closed += loss;
+        self.turnings.book(forgotten.place, loss);
+        let force = (forgotten.outside.force - forgotten.inside.force).abs();
+        let slip = (forgotten.outside.slip - forgotten.inside.slip).abs();
+        let by_slip = (2.0 * self.curve.displacement(force / 2.0) - slip).abs();
+        let by_force = (2.0 * self.curve.force(slip / 2.0) - force).abs();
+        self.gap = (self.gap.0.max(by_slip), self.gap.1.max(by_force));
     }
 
     /// Forgets the loops that close on the way to `target` (force or slip, as `of` reads it).
@@ -243,7 +318,7 @@ impl<C: VirginCurve> ExactResponse<C> {
                 [.., outer, inner] if self.direction * (target - of(outer)) >= 0.0 => {
                     let amplitude = (inner.slip - outer.slip).abs() / 2.0;
                     self.closed += 4.0 * self.curve.leg_dissipation(amplitude);
-                    self.turnings.truncate(self.turnings.len() - 2);
+                    self.turnings.forget_loop();
                 }
                 _ => return,
             }

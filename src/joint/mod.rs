@@ -8,7 +8,9 @@ pub mod memory;
 pub mod network;
 pub mod parameters;
 pub mod play;
+pub mod sensitivity;
 pub mod simulation;
+mod turnings;
 pub mod virgin;
 
 pub use density::{Density, FourParameter, PowerLaw, PowerLawTable, Sliders, SmallForce};
@@ -18,6 +20,7 @@ pub use memory::ExactResponse;
 pub use network::Network;
 pub use parameters::Parameter;
 pub use play::{PlayNetwork, Plays};
+pub use sensitivity::Sensitivity;
 pub use simulation::{Drive, Output, Simulation};
 pub use virgin::{BehindSpring, VirginCurve};
 

@@ -183,6 +183,18 @@ impl Network {
         dissipated
     }
 
+    /// Force \[N\] of the sliders that slide on if pushed on towards positive u (or negative): the
+    /// dissipation grows by this much per slip.
+    pub fn sliding_force(&self, rising: bool) -> f64 {
+        let share = if rising {
+            self.limit.positive
+        } else {
+            -self.limit.negative
+        };
+        let sliding = |slider: &&Slider| slider.force == slider.strength * share;
+        self.sliders.iter().filter(sliding).map(|s| s.force).sum()
+    }
+
     /// Length of what [`Network::save`] appends.
     pub fn state_length(&self) -> usize {
         self.sliders.len() + 1

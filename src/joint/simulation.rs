@@ -1,5 +1,9 @@
 //! A joint driven sample by sample, in force or in displacement.
 
+mod follow;
+mod saved;
+mod slopes;
+
 pub use super::error::JointError;
 
 use super::Joint;
@@ -7,7 +11,7 @@ use super::density::{Density, Sliders};
 use super::effect::Acting;
 use super::extended::{Extended, fine_cells};
 use super::memory::ExactResponse;
-use super::virgin::BehindSpring;
+use super::virgin::{BehindSpring, VirginCurve};
 
 /// Which quantity is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,11 +64,6 @@ pub struct Simulation {
 /// 1e-4 of it (tests/extended/cells.rs).
 pub const CELLS: usize = 256;
 
-/// Version of the saved state.
-const FORMAT: f64 = 1.0;
-/// Numbers of a saved state before those of the response.
-const HEAD: usize = 11;
-
 #[derive(Debug, Clone)]
 enum Response {
     /// The network alone, driven by force or by its own slip.
@@ -81,6 +80,25 @@ impl Simulation {
     /// # Errors
     /// [`JointError::OutOfRange`] and [`JointError::WrongCount`] as [`Joint::check`].
     pub fn new(joint: &Joint, drive: Drive) -> Result<Simulation, JointError> {
+        Simulation::remembering(joint, drive, None)
+    }
+
+    /// A virgin joint that remembers at most `most` turning points, for hosts with a clock: its
+    /// steps allocate nothing. Equal to [`Simulation::new`] to the last bit until a history asks
+    /// for more; what happens then says [`ExactResponse::bounded`]. With effects the memory is the
+    /// sliders' and has one size anyway.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn bounded(joint: &Joint, drive: Drive, most: usize) -> Result<Simulation, JointError> {
+        Simulation::remembering(joint, drive, Some(most))
+    }
+
+    fn remembering(
+        joint: &Joint,
+        drive: Drive,
+        most: Option<usize>,
+    ) -> Result<Simulation, JointError> {
         joint.check()?;
         let acting: Vec<Acting> = joint.effects.iter().filter(|a| acts(a)).cloned().collect();
         let stiffness = joint.series_stiffness;
@@ -89,13 +107,13 @@ impl Simulation {
             let extended = Extended::new(&sliders, stiffness, &acting, drive);
             Response::Extended(Box::new(extended))
         } else if drive == Drive::Force || stiffness.is_infinite() {
-            Response::Network(Box::new(ExactResponse::new(joint.density.clone())))
+            Response::Network(Box::new(exact(joint.density.clone(), most)))
         } else {
             let curve = BehindSpring {
                 network: joint.density.clone(),
                 series_stiffness: stiffness,
             };
-            Response::BehindSpring(Box::new(ExactResponse::new(curve)))
+            Response::BehindSpring(Box::new(exact(curve, most)))
         };
         let mut simulation = Simulation {
             response,
@@ -177,88 +195,18 @@ impl Simulation {
         Ok(output)
     }
 
+    /// True where time matters beside the turning values: with effects.
+    pub fn has_effects(&self) -> bool {
+        matches!(self.response, Response::Extended(_))
+    }
+
     /// The last answer.
     pub fn output(&self) -> Output {
         self.output
     }
 
-    /// Complete state as numbers; [`Simulation::restore`] continues identically, to the last bit.
-    pub fn state(&self) -> Vec<f64> {
-        let o = &self.output;
-        let started = if self.started { 1.0 } else { 0.0 };
-        let mut state = vec![
-            FORMAT,
-            self.fingerprint,
-            started,
-            o.time,
-            o.force,
-            o.displacement,
-        ];
-        state.extend([o.slip_displacement, o.dissipation, o.dissipation_rate]);
-        state.extend([o.stored_energy, o.tangent_stiffness]);
-        match &self.response {
-            Response::Network(exact) => state.extend(exact.state()),
-            Response::BehindSpring(exact) => state.extend(exact.state()),
-            Response::Extended(extended) => extended.save(&mut state),
-        }
-        state
-    }
-
-    /// Puts back a saved state of the same joint and drive.
-    ///
-    /// # Errors
-    /// [`JointError::ForeignState`]; the state is then as before.
-    pub fn restore(&mut self, state: &[f64]) -> Result<(), JointError> {
-        let foreign = |reason: String| JointError::ForeignState { reason };
-        let (head, rest) = state
-            .split_at_checked(HEAD)
-            .ok_or_else(|| foreign(format!("it has only {} numbers", state.len())))?;
-        let &[
-            format,
-            print,
-            started,
-            time,
-            force,
-            displacement,
-            slip,
-            loss,
-            rate,
-            stored,
-            tangent,
-        ] = head
-        else {
-            return Err(foreign(format!("it has only {} numbers", state.len())));
-        };
-        if format != FORMAT {
-            return Err(foreign(format!(
-                "its version is {format}, this one reads {FORMAT}"
-            )));
-        }
-        if print != self.fingerprint {
-            return Err(foreign(
-                "it was saved from other parameters or another drive".into(),
-            ));
-        }
-        match &mut self.response {
-            Response::Network(exact) => exact.restore(rest)?,
-            Response::BehindSpring(exact) => exact.restore(rest)?,
-            Response::Extended(extended) => extended.restore(rest)?,
-        }
-        self.started = started != 0.0;
-        self.output = Output {
-            time,
-            force,
-            displacement,
-            slip_displacement: slip,
-            dissipation: loss,
-            dissipation_rate: rate,
-            stored_energy: stored,
-            tangent_stiffness: tangent,
-        };
-        Ok(())
-    }
-
-    fn input(&self) -> f64 {
+    /// The last input [N or m].
+    pub fn input(&self) -> f64 {
         match self.drive {
             Drive::Force => self.output.force,
             Drive::Displacement => self.output.displacement,
@@ -271,6 +219,14 @@ impl Simulation {
             Response::BehindSpring(exact) => exact.tangent_stiffness(),
             Response::Extended(extended) => extended.tangent_stiffness(),
         }
+    }
+}
+
+/// A virgin exact response, of bounded memory or not.
+fn exact<C: VirginCurve>(curve: C, most: Option<usize>) -> ExactResponse<C> {
+    match most {
+        Some(most) => ExactResponse::bounded(curve, most),
+        None => ExactResponse::new(curve),
     }
 }
 

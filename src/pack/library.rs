@@ -1,6 +1,6 @@
 //! Where the FMU's shared library comes from, and that it is the right one.
 
-use super::PackError;
+use super::{FmiVersion, PackError};
 use crate::variables::STAMP;
 use std::path::{Path, PathBuf};
 
@@ -111,25 +111,18 @@ impl Library {
         }
     }
 
-    /// Name inside an archive of FMI 2.0: the model identifier without `lib`.
-    pub fn entry(&self) -> String {
-        self.entry_in(self.platform)
-    }
-
-    /// Name inside an archive of FMI 3.0, whose folders are called `x86_64-windows` and the like.
-    pub fn entry_of_fmi_3(&self) -> String {
-        self.entry_in(match self.platform {
-            "linux64" => "x86_64-linux",
-            "win64" => "x86_64-windows",
-            "darwin64" => "x86_64-darwin",
-            "linux32" => "x86-linux",
-            "win32" => "x86-windows",
-            "darwin32" => "x86-darwin",
-            other => other,
-        })
-    }
-
-    fn entry_in(&self, folder: &str) -> String {
+    /// Name inside an archive: the model identifier without `lib`. FMI 3.0 calls the folders
+    /// `x86_64-windows` and the like.
+    pub fn entry(&self, version: FmiVersion) -> String {
+        let folder = match (version, self.platform) {
+            (FmiVersion::Three, "linux64") => "x86_64-linux",
+            (FmiVersion::Three, "win64") => "x86_64-windows",
+            (FmiVersion::Three, "darwin64") => "x86_64-darwin",
+            (FmiVersion::Three, "linux32") => "x86-linux",
+            (FmiVersion::Three, "win32") => "x86-windows",
+            (FmiVersion::Three, "darwin32") => "x86-darwin",
+            (_, platform) => platform,
+        };
         let suffix = match &self.platform[..3] {
             "win" => "dll",
             "dar" => "dylib",

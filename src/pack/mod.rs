@@ -7,15 +7,18 @@ mod experiment;
 mod library;
 mod licence;
 mod model_description;
+mod model_description_3;
 mod nominal;
 pub mod terminals;
 mod unit;
+mod version;
 
 pub use error::PackError;
 pub use experiment::Experiment;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};
 pub use licence::LINKED;
 pub use nominal::Nominal;
+pub use version::FmiVersion;
 
 use crate::joint::{Drive, Joint};
 use crate::saved;
@@ -44,35 +47,59 @@ impl Archive {
         drive: Drive,
         libraries: &[Library],
     ) -> Result<Archive, PackError> {
+        Archive::of_version(FmiVersion::Two, joint_json, file, drive, libraries)
+    }
+
+    /// As [`Archive::new`], for a version of FMI.
+    ///
+    /// # Errors
+    /// As [`Archive::new`].
+    pub fn of_version(
+        version: FmiVersion,
+        joint_json: &str,
+        file: &str,
+        drive: Drive,
+        libraries: &[Library],
+    ) -> Result<Archive, PackError> {
         let saved = saved::read(joint_json, file)?;
         let variables = Variables::of(&saved.joint, drive)?;
         check_starts(&variables, &saved.joint)?;
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
-        let xml = model_description::xml(&saved, drive, &variables, &guid).map_err(|error| {
-            PackError::Entry {
-                name: "modelDescription.xml".to_owned(),
+        let entry = |name: &str, bytes: std::io::Result<Vec<u8>>| match bytes {
+            Ok(bytes) => Ok((name.to_owned(), bytes)),
+            Err(error) => Err(PackError::Entry {
+                name: name.to_owned(),
                 error,
+            }),
+        };
+        let xml = match version {
+            FmiVersion::Two => model_description::xml(&saved, drive, &variables, &guid),
+            FmiVersion::Three => model_description_3::xml(&saved, drive, &variables, &guid),
+        };
+        let mut entries = vec![entry("modelDescription.xml", xml)?];
+        match version {
+            FmiVersion::Two => entries.push(entry("model.png", Ok(ICON.to_vec()))?),
+            FmiVersion::Three => {
+                entries.push(entry(terminals::ENTRY, terminals::xml())?);
+                entries.push(entry(terminals::ICON_ENTRY, Ok(ICON.to_vec()))?);
             }
-        })?;
-        let page = documentation::html(&saved, drive, &variables, &guid);
-        let mut entries = vec![
-            ("modelDescription.xml".to_owned(), xml),
-            ("model.png".to_owned(), ICON.to_vec()),
-            ("documentation/index.html".to_owned(), page.into_bytes()),
+        }
+        let page = documentation::html(version, &saved, drive, &variables, &guid);
+        for (name, bytes) in [
+            ("documentation/index.html", page.into_bytes()),
             (
-                "documentation/licenses/license.txt".to_owned(),
+                "documentation/licenses/license.txt",
                 licence::text().into_bytes(),
             ),
-            (
-                "resources/joint.json".to_owned(),
-                joint_json.as_bytes().to_vec(),
-            ),
-        ];
+            ("resources/joint.json", joint_json.as_bytes().to_vec()),
+        ] {
+            entries.push(entry(name, Ok(bytes))?);
+        }
         entries.extend(
             libraries
                 .iter()
-                .map(|library| (library.entry(), library.bytes.clone())),
+                .map(|library| (library.entry(version), library.bytes.clone())),
         );
         Ok(Archive { entries })
     }

@@ -1,11 +1,10 @@
-//! modelDescription.xml.
+//! modelDescription.xml of FMI 2.0, and what FMI 3.0 has in common with it.
 
 use super::display_unit::display_unit;
-use super::experiment::Experiment;
-use super::nominal::Nominal;
 use super::unit::base_unit;
-use crate::joint::Drive;
-use crate::saved::SavedJoint;
+use super::{Experiment, FmiVersion, Nominal};
+use crate::joint::{Drive, Joint};
+use crate::saved::{Provenance, SavedJoint};
 use crate::variables::{Causality, MODEL_IDENTIFIER, Variable, Variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -13,7 +12,7 @@ use std::collections::BTreeSet;
 use std::io::Result;
 
 /// Attributes of one element, in order.
-type Attributes<'a> = Vec<(&'a str, String)>;
+pub(super) type Attributes<'a> = Vec<(&'a str, String)>;
 
 /// The XML of a joint under a drive. Elements and attributes stand in the order of the FMI 2.0
 /// schema; strict importers stop at any other.
@@ -21,46 +20,20 @@ pub fn xml(saved: &SavedJoint, drive: Drive, variables: &Variables, guid: &str) 
     let joint = &saved.joint;
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let mut root = vec![
-        ("fmiVersion", "2.0".to_owned()),
-        ("modelName", MODEL_IDENTIFIER.to_owned()),
-        ("guid", guid.to_owned()),
-        ("description", super::description(joint, drive)),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        (
-            "generationTool",
-            concat!("iwan ", env!("CARGO_PKG_VERSION")).to_owned(),
-        ),
-        ("variableNamingConvention", "structured".to_owned()),
-        ("numberOfEventIndicators", "0".to_owned()),
-        ("license", env!("CARGO_PKG_LICENSE").to_owned()),
-    ];
-    // Of the joint, not of the export: the same joint gives the same archive.
-    let date = saved.provenance.date.iter();
-    root.extend(date.map(|date| ("generationDateAndTime", date.clone())));
+    let mut root = root(FmiVersion::Two, saved, drive, ("guid", guid));
+    root.push(("numberOfEventIndicators", "0".to_owned()));
     within(&mut writer, "fmiModelDescription", root, |writer| {
         empty(writer, "CoSimulation", capabilities())?;
-        units(writer, variables)?;
-        within(writer, "LogCategories", vec![], |writer| {
-            let refused = "Why a call was refused; always told";
-            log_category(writer, "logStatusError", refused)?;
-            log_category(
-                writer,
-                "logEvents",
-                "Instantiated, initialized, reset, terminated",
-            )
-        })?;
-        let experiment = Experiment::of(&saved.provenance);
-        let attributes = vec![
-            ("startTime", "0".to_owned()),
-            ("stopTime", format!("{:?}", experiment.stop_time)),
-            ("stepSize", format!("{:?}", experiment.step_size)),
-        ];
-        empty(writer, "DefaultExperiment", attributes)?;
+        units(writer, variables.iter().map(|variable| variable.unit))?;
+        log_categories(writer)?;
+        default_experiment(writer, &saved.provenance)?;
         within(writer, "ModelVariables", vec![], |writer| {
             let nominal = Nominal::of(joint);
             variables.iter().try_for_each(|variable| {
-                scalar_variable(writer, variable, variable.start(joint), nominal)
+                let (attributes, real) = of_variable(variable, joint, nominal);
+                within(writer, "ScalarVariable", attributes, |writer| {
+                    empty(writer, "Real", real)
+                })
             })
         })?;
         structure(writer, variables)
@@ -70,6 +43,32 @@ pub fn xml(saved: &SavedJoint, drive: Drive, variables: &Variables, guid: &str) 
     Ok(bytes)
 }
 
+/// Attributes of the root; what tells one joint from another goes by a name of each version.
+pub(super) fn root<'a>(
+    version: FmiVersion,
+    saved: &SavedJoint,
+    drive: Drive,
+    (token, value): (&'a str, &str),
+) -> Attributes<'a> {
+    let mut root = vec![
+        ("fmiVersion", version.number().to_owned()),
+        ("modelName", MODEL_IDENTIFIER.to_owned()),
+        (token, value.to_owned()),
+        ("description", super::description(&saved.joint, drive)),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("license", env!("CARGO_PKG_LICENSE").to_owned()),
+        (
+            "generationTool",
+            concat!("iwan ", env!("CARGO_PKG_VERSION")).to_owned(),
+        ),
+    ];
+    // Of the joint, not of the export: the same joint gives the same archive.
+    let date = saved.provenance.date.iter();
+    root.extend(date.map(|date| ("generationDateAndTime", date.clone())));
+    root.push(("variableNamingConvention", "structured".to_owned()));
+    root
+}
+
 /// What the library can do; each is tested at its boundary.
 fn capabilities() -> Attributes<'static> {
     owned(&[
@@ -77,19 +76,48 @@ fn capabilities() -> Attributes<'static> {
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canInterpolateInputs", "true"),
-        ("maxOutputDerivativeOrder", "0"),
+        ("maxOutputDerivativeOrder", "1"),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ])
 }
 
-/// Every unit that a variable uses, once, with its base units.
-fn units(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
-    let used: BTreeSet<_> = variables.iter().map(|variable| variable.unit).collect();
+pub(super) fn log_categories(writer: &mut Writer<Vec<u8>>) -> Result<()> {
+    within(writer, "LogCategories", vec![], |writer| {
+        let refused = "Why a call was refused; always told";
+        log_category(writer, "logStatusError", refused)?;
+        log_category(
+            writer,
+            "logEvents",
+            "Instantiated, initialized, reset, terminated",
+        )
+    })
+}
+
+/// The joint's own measurement, as [`Experiment`] has it.
+pub(super) fn default_experiment(
+    writer: &mut Writer<Vec<u8>>,
+    provenance: &Provenance,
+) -> Result<()> {
+    let experiment = Experiment::of(provenance);
+    let attributes = vec![
+        ("startTime", "0".to_owned()),
+        ("stopTime", format!("{:?}", experiment.stop_time)),
+        ("stepSize", format!("{:?}", experiment.step_size)),
+    ];
+    empty(writer, "DefaultExperiment", attributes)
+}
+
+/// Every unit that is used, once, with its base units.
+pub(super) fn units<'a>(
+    writer: &mut Writer<Vec<u8>>,
+    used: impl Iterator<Item = &'a str>,
+) -> Result<()> {
+    let used: BTreeSet<_> = used.collect();
     within(writer, "UnitDefinitions", vec![], |writer| {
         for unit in used {
             within(writer, "Unit", owned(&[("name", unit)]), |writer| {
@@ -124,12 +152,12 @@ fn log_category(writer: &mut Writer<Vec<u8>>, name: &str, description: &str) -> 
     )
 }
 
-fn scalar_variable(
-    writer: &mut Writer<Vec<u8>>,
+/// What a variable is, and its numbers, in the words of both versions of FMI.
+pub(super) fn of_variable<'a>(
     variable: &Variable,
-    start: Option<f64>,
+    joint: &Joint,
     nominal: Nominal,
-) -> Result<()> {
+) -> (Attributes<'a>, Attributes<'a>) {
     let mut attributes = vec![
         ("name", variable.name.clone()),
         ("valueReference", variable.reference.to_string()),
@@ -144,33 +172,36 @@ fn scalar_variable(
     };
     attributes.push(("variability", variability.to_owned()));
     attributes.extend(initial.map(|initial| ("initial", initial.to_owned())));
-    within(writer, "ScalarVariable", attributes, |writer| {
-        let mut real = owned(&[("unit", variable.unit)]);
-        let shown = display_unit(variable.unit);
-        real.extend(shown.map(|(name, _)| ("displayUnit", name.to_owned())));
-        let numbers = [
-            (
-                "min",
-                Some(variable.lower).filter(|bound| bound.is_finite()),
-            ),
-            (
-                "max",
-                Some(variable.upper).filter(|bound| bound.is_finite()),
-            ),
-            ("nominal", nominal.value(&variable.name, start)),
-            ("start", start),
-        ];
-        for (name, number) in numbers {
-            // `{:?}` is the shortest text that reads back as the same number.
-            real.extend(number.map(|number| (name, format!("{number:?}"))));
-        }
-        empty(writer, "Real", real)
-    })
+    (attributes, numbers(variable, joint, nominal))
 }
 
-/// Outputs and how they depend. Between steps an output follows from the state alone: the input
-/// acts only through fmi2DoStep, so that a master sees no algebraic loop. In Initialization Mode it
-/// follows from the input and every parameter.
+/// Units, bounds, size and start value.
+fn numbers<'a>(variable: &Variable, joint: &Joint, nominal: Nominal) -> Attributes<'a> {
+    let start = variable.start(joint);
+    let mut real = owned(&[("unit", variable.unit)]);
+    let shown = display_unit(variable.unit);
+    real.extend(shown.map(|(name, _)| ("displayUnit", name.to_owned())));
+    let numbers = [
+        (
+            "min",
+            Some(variable.lower).filter(|bound| bound.is_finite()),
+        ),
+        (
+            "max",
+            Some(variable.upper).filter(|bound| bound.is_finite()),
+        ),
+        ("nominal", nominal.value(&variable.name, start)),
+        ("start", start),
+    ];
+    for (name, number) in numbers {
+        // `{:?}` is the shortest text that reads back as the same number.
+        real.extend(number.map(|number| (name, format!("{number:?}"))));
+    }
+    real
+}
+
+/// Outputs and how they depend: on the input at the end of the step, as the directional derivatives
+/// have it, and in Initialization Mode on the input and every parameter.
 fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
     let indices = |wanted: &[Causality]| -> Vec<String> {
         let all = variables.iter().enumerate();
@@ -178,9 +209,10 @@ fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> 
         chosen.map(|(index, _)| (index + 1).to_string()).collect()
     };
     let outputs = indices(&[Causality::Output]);
+    let input = indices(&[Causality::Input]).join(" ");
     let knowns = indices(&[Causality::Input, Causality::Parameter]).join(" ");
     within(writer, "ModelStructure", vec![], |writer| {
-        unknowns(writer, "Outputs", &outputs, "")?;
+        unknowns(writer, "Outputs", &outputs, &input)?;
         unknowns(writer, "InitialUnknowns", &outputs, &knowns)
     })
 }
@@ -202,14 +234,18 @@ fn unknowns(
     })
 }
 
-fn owned<'a>(attributes: &[(&'a str, &str)]) -> Attributes<'a> {
+pub(super) fn owned<'a>(attributes: &[(&'a str, &str)]) -> Attributes<'a> {
     attributes
         .iter()
         .map(|&(name, value)| (name, value.to_owned()))
         .collect()
 }
 
-fn empty(writer: &mut Writer<Vec<u8>>, name: &str, attributes: Attributes) -> Result<()> {
+pub(super) fn empty(
+    writer: &mut Writer<Vec<u8>>,
+    name: &str,
+    attributes: Attributes,
+) -> Result<()> {
     let pairs = attributes
         .iter()
         .map(|(name, value)| (*name, value.as_str()));
@@ -220,7 +256,7 @@ fn empty(writer: &mut Writer<Vec<u8>>, name: &str, attributes: Attributes) -> Re
         .map(|_| ())
 }
 
-fn within(
+pub(super) fn within(
     writer: &mut Writer<Vec<u8>>,
     name: &str,
     attributes: Attributes,

@@ -11,7 +11,7 @@ pub const ICON_ENTRY: &str = "terminalsAndIcons/icon.png";
 
 /// One mechanical terminal: displacement across the joint as the potential, force through it as the
 /// flow. A tool that knows the rule connects both with one line, in either drive. Checked against
-/// the standard's schema by tests/fmu/fmpy_archive.py.
+/// the standard's schema by tests/fmu/fmpy_three.py.
 pub fn xml() -> Result<Vec<u8>> {
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;

@@ -7,7 +7,7 @@ mod table;
 
 pub use guid::{drive_of, guid};
 pub use places::{Place, VariableError};
-pub use table::{Causality, STAMP, Signal};
+pub use table::{Causality, STAMP, Signal, TIME_REFERENCE};
 
 use crate::joint::{Drive, Joint, JointError};
 use table::SIGNALS;

@@ -236,6 +236,43 @@ def impossible_steps_are_refused(unit: Unit) -> None:
         slave.fmu.doStep(0.0, 1e-17)
 
 
+def start_values_of_the_xml_are_those_of_the_library(unit: Unit) -> None:
+    with unit.open() as slave:
+        slave.fmu.setupExperiment()
+        slave.fmu.enterInitializationMode()
+        for name, variable in unit.variables.items():
+            if variable.start is not None:
+                assert slave.get([name]) == [float(variable.start)], name
+
+
+def directional_derivatives_are_differences_of_repeated_steps(unit: Unit) -> None:
+    """On the way up and on the way down: the step is taken back and taken again."""
+    load = unit.load()
+    outputs = [n for n, v in unit.variables.items() if v.causality == "output"]
+    references = [unit.variables[name].valueReference for name in outputs]
+    with unit.open() as slave:
+        slave.start(load)
+        slave.run(load, 1, 600)
+        for row in range(600, 640):
+            state = slave.fmu.getFMUstate()
+            width = 1e-5 * np.abs(load).max()
+            sides = []
+            for value in (load[row] + width, load[row] - width, load[row]):
+                slave.fmu.setFMUstate(state)
+                slave.fmu.setReal([slave.reference(unit.input)], [value])
+                slave.fmu.doStep(unit.time[row - 1], unit.time[row] - unit.time[row - 1])
+                sides.append(np.array(slave.get(outputs)))
+            known = [slave.reference(unit.input)]
+            slopes = np.array(slave.fmu.getDirectionalDerivative(references, known, [1.0]))
+            quotients = (sides[0] - sides[1]) / (2.0 * width)
+            # With causes the network has sliders: a corner may lie within the difference.
+            tolerance = 3e-2 if unit.joint["causes"] else 1e-3
+            apart = np.abs(slopes - quotients) / np.maximum(np.abs(slopes), 1e-30)
+            moved = abs(load[row] - load[row - 1]) > 10.0 * width
+            assert not moved or apart[0] <= tolerance, (row, outputs, slopes, quotients)
+            slave.fmu.freeFMUstate(state)
+
+
 def a_wrong_guid_is_refused(unit: Unit) -> None:
     stranger = FMU2Slave(
         guid="00000000-0000-0000-0000-000000000000",
@@ -268,5 +305,7 @@ CHECKS = [
     reset_starts_anew,
     a_parameter_set_by_the_importer_is_the_joints,
     impossible_steps_are_refused,
+    start_values_of_the_xml_are_those_of_the_library,
+    directional_derivatives_are_differences_of_repeated_steps,
     a_wrong_guid_is_refused,
 ]

@@ -2,9 +2,9 @@
 
     python tests/fmu/run_fmpy.py [--iwan target/release/iwan] [JOINT.fmu …]
 
-Without archives four are exported first: driven in force and in displacement, with and without
-causes; the archive that the environment variable IWAN_FMU names is run too. Exit status 0 where all
-passed; the last line says `N passed, N failed`.
+Without archives four are exported first, each for FMI 2.0 and FMI 3.0: driven in force and in
+displacement, with and without causes; the archive that the environment variable IWAN_FMU names is
+run too. Exit status 0 where all passed; the last line says `N passed, N failed`.
 """
 
 import argparse
@@ -18,6 +18,7 @@ from pathlib import Path
 
 import fmpy_archive
 import fmpy_simulation
+import fmpy_three
 
 BOLT = {
     "format": "iwan-joint/1",
@@ -36,7 +37,13 @@ BOLT = {
 CAUSES = [
     {
         "name": "pinning",
-        "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5},
+        "parameters": {
+            "stiffness": 2e6,
+            "gap_positive": 1e-5,
+            "gap_negative": 2e-5,
+            "rounding": 0,
+            "stiffness_ratio": 1,
+        },
     },
     {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
 ]
@@ -50,12 +57,18 @@ def export(iwan: Path, folder: Path) -> list[Path]:
         joint.write_text(json.dumps({**BOLT, "causes": causes}))
         for drive in ("force", "displacement"):
             archive = folder / f"{name}-{drive}.fmu"
-            command = [iwan, "export", joint, "-o", archive, "--drive", drive]
-            subprocess.run(command, check=True)
+            command = [iwan, "export", joint, "--drive", drive, "-o"]
+            subprocess.run([*command, archive], check=True)
+            subprocess.run([*command, three(archive), "--fmi", "3"], check=True)
             archives.append(archive)
     if "IWAN_FMU" in os.environ:
         archives.append(Path(os.environ["IWAN_FMU"]))
     return archives
+
+
+def three(archive: Path) -> Path:
+    """Where the FMI 3.0 archive of the same joint stands, if there is one."""
+    return archive.with_suffix(".3.fmu")
 
 
 def passes(name: str, check, subject) -> bool:
@@ -85,6 +98,10 @@ def main() -> int:
             unit = fmpy_simulation.Unit(archive, iwan)
             for check in fmpy_simulation.checks(unit):
                 outcomes.append(passes(f"{archive.name} {check.__name__}", check, unit))
+            if three(archive).exists():
+                pair = fmpy_three.Pair(archive, three(archive), iwan)
+                for check in fmpy_three.CHECKS:
+                    outcomes.append(passes(f"{pair.archive.name} {check.__name__}", check, pair))
     print(f"{sum(outcomes)} passed, {len(outcomes) - sum(outcomes)} failed")
     return 0 if outcomes and all(outcomes) else 1
 

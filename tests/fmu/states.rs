@@ -120,11 +120,11 @@ fn damaged_bytes_are_refused() {
         told
     };
     assert!(told(spoil(0, b'?')).contains("came other bytes"));
-    assert!(told(spoil(8, 9)).contains("layout version 1, came 9"));
+    assert!(told(spoil(8, 9)).contains("layout version 2, came 9"));
     assert!(told(spoil(20, b'?')).contains("expected one of joint"));
     assert!(told(spoil(56, 77)).contains("mode is damaged"));
     assert!(told(spoil(57, 0xff)).contains("flags is damaged"));
-    assert!(told(spoil(121, 0xff)).contains("parameters is damaged"));
+    assert!(told(spoil(177, 0xff)).contains("parameters is damaged"));
     unit.free_state(state);
 }
 

@@ -1,7 +1,7 @@
 //! What an archive says of itself, held against the joint in it: what importers' own checks miss.
 
 use crate::joint::Joint;
-use crate::pack::{Library, PackError};
+use crate::pack::{FmiVersion, Library, PackError};
 use crate::variables::{MODEL_IDENTIFIER, Variables};
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
@@ -72,8 +72,8 @@ fn entries(zip: &mut Zip, found: &mut Validation) -> zip::result::ZipResult<()> 
         zip.by_name(name)?.read_to_end(&mut bytes)?;
         found.platforms.push(platform.to_owned());
         match Library::of_bytes(platform, Path::new(name), bytes) {
-            Ok(library) if library.entry() != *name => {
-                let expected = library.entry();
+            Ok(library) if library.entry(FmiVersion::Two) != *name => {
+                let expected = library.entry(FmiVersion::Two);
                 found
                     .faults
                     .push(format!("{name}: importers look for {expected}, not {file}"));

@@ -4,6 +4,7 @@ use crate::identify::family::{self, FamilyFit};
 use crate::identify::interval::Estimated;
 use crate::identify::problem::Problem;
 use crate::identify::seed::{self, Seed};
+use crate::identify::table::{self, Known};
 use crate::identify::{Form, baseline};
 use crate::joint::{Drive, Joint};
 use crate::read::Loaded;
@@ -51,7 +52,7 @@ const GRID: f64 = 1e-5;
 
 impl Found {
     /// Runs the procedure and the fit.
-    pub fn from(loaded: &[Loaded]) -> Result<Found, NothingFound> {
+    pub fn from(loaded: &[Loaded], known: &Known) -> Result<Found, NothingFound> {
         let files = loaded.iter().map(|one| (name(one), samples(one))).collect();
         let histories: Vec<&Record> = loaded
             .iter()
@@ -69,7 +70,7 @@ impl Found {
             .collect();
         let mut tables: Vec<(String, Seed)> = tables
             .iter()
-            .map(|table| Ok((table.name.clone(), seed::of_table(table)?)))
+            .map(|one| Ok((one.name.clone(), table::seed(one, known)?)))
             .collect::<Result<_, seed::SeedError>>()?;
         let mut found = if histories.is_empty() && !tables.is_empty() {
             let (_, seed) = tables.remove(0);

@@ -160,8 +160,8 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
     };
     if law.over == Over::Displacement {
         return missing(
-            "at phase resonance the table's force is the exciter's; give the joint's own force \
-             amplitude (modal mass times acceleration), or a time history",
+            "at phase resonance the table's force is the exciter's; give --modal-mass KG or \
+             --stiffness N/m, from which the joint's own force follows, or a time history",
         );
     }
     if !law.constant {
@@ -171,7 +171,9 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
         );
     }
     let Some(stiffness) = &seed.stiffness else {
-        return missing("give the column `displacement amplitude [m]` for the stiffness");
+        return missing(
+            "give the column `displacement amplitude [m]`, or --stiffness N/m, for the stiffness",
+        );
     };
     let reference = seed.largest_force;
     let shape = Shape {

@@ -14,14 +14,15 @@ mod stiffness;
 
 pub use cycle_point::{CyclePoint, cycle_points};
 pub use dissipation::{DissipationLaw, LocalSlope, Over, dissipation_law};
+pub use findings::frequency_finding;
 pub use level::{Level, levels, table_levels};
 pub use monotonic::{Matching, Monotonic, Source, monotonic};
 pub use residual_slip::{ResidualSlip, residual_slip};
 pub use stiffness::{Stiffness, series_stiffness};
 
+use crate::identify::table::at_resonance;
 use crate::record::cycles::turning_points;
 use crate::record::{AmplitudeTable, Record};
-use std::f64::consts::PI;
 
 /// Why no seed could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -146,7 +147,7 @@ pub fn of_records(records: &[&Record]) -> Result<Seed, SeedError> {
 pub fn of_table(table: &AmplitudeTable) -> Result<Seed, SeedError> {
     let levels = table_levels(table);
     let largest_force = levels.last().ok_or(SeedError::NoRecord)?.force_amplitude;
-    let over = if at_resonance(&levels) {
+    let over = if at_resonance(table) {
         Over::Displacement
     } else {
         Over::Force
@@ -175,19 +176,6 @@ fn stiffness_of(seed: &Seed) -> Option<Stiffness> {
         _ => (0.0, 1),
     };
     series_stiffness(&seed.levels, exponent, used)
-}
-
-/// True where force and displacement are a quarter of a cycle apart, `D ≈ π F X`: the force is then
-/// an exciter's at phase resonance, not the joint's.
-fn at_resonance(levels: &[Level]) -> bool {
-    let mut sines = levels
-        .iter()
-        .filter_map(|l| Some(l.dissipation / (PI * l.force_amplitude * l.displacement_amplitude?)));
-    let mut any = false;
-    sines.all(|sine| {
-        any = true;
-        sine > 0.8
-    }) && any
 }
 
 /// ∫F dU over the path of U times the force amplitude; for a settled loop `D/(4 F_0 U_0)`.

@@ -104,8 +104,7 @@ impl Laws {
     /// Shows an accepted sample to every effect.
     pub fn remember(&mut self, now: &Situation) {
         for law in &self.laws {
-            let memory = &mut self.memory[law.span.clone()];
-            law.acting.effect.remember(&law.acting.values, now, memory);
+            law.remember(now, &mut self.memory[law.span.clone()]);
         }
     }
 
@@ -137,6 +136,11 @@ impl Law {
     pub fn in_series(&self, force: f64, step: f64, memory: &[f64]) -> Response {
         let acting = &self.acting;
         acting.effect.in_series(&acting.values, force, step, memory)
+    }
+    pub fn remember(&self, now: &Situation, memory: &mut [f64]) {
+        self.acting
+            .effect
+            .remember(&self.acting.values, now, memory);
     }
     pub fn stored_energy(&self, now: &Situation, memory: &[f64]) -> Option<f64> {
         let acting = &self.acting;

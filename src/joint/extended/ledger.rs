@@ -26,6 +26,8 @@ pub(super) struct Ledger {
     kept: Vec<f64>,
     /// Displacement of each effect in series \[m\], zero for the others.
     series: Vec<f64>,
+    /// Work of the step that is being booked; a place that is made once.
+    works: Vec<Work>,
 }
 
 /// The two ends of an accepted step.
@@ -47,6 +49,7 @@ impl Ledger {
             dissipation: 0.0,
             kept: vec![0.0; laws.len()],
             series: series.collect(),
+            works: vec![Work::default(); laws.len()],
         }
     }
 
@@ -60,20 +63,25 @@ impl Ledger {
         self.kept.iter().sum::<f64>() - (self.dissipation - self.lost)
     }
 
-    /// Books a step that `laws` have not yet remembered; returns per effect the work that its
-    /// stored energy must still be set against, see [`Ledger::close`].
-    pub fn work(&mut self, laws: &Laws, leg: &Leg) -> Vec<Work> {
-        let mut works = Vec::with_capacity(laws.len());
-        for (series, (law, memory)) in self.series.iter_mut().zip(laws.iter()) {
-            works.push(work_of(law, memory, leg, series));
+    /// Takes down the work of a step that `laws` have not yet remembered; their stored energy must
+    /// still be set against it, see [`Ledger::close`].
+    pub fn work(&mut self, laws: &Laws, leg: &Leg) {
+        let accounts = self.series.iter_mut().zip(&mut self.works);
+        for ((series, work), (law, memory)) in accounts.zip(laws.iter()) {
+            *work = work_of(law, memory, leg, series);
         }
-        works
+    }
+
+    /// True while less has been lost than was told before: the difference is owed.
+    pub fn owes(&self) -> bool {
+        self.dissipation > self.lost
     }
 
     /// Books the step for good, after the effects have remembered it.
-    pub fn close(&mut self, laws: &Laws, now: &Situation, works: &[Work], network_loss: f64) {
+    pub fn close(&mut self, laws: &Laws, now: &Situation, network_loss: f64) {
         self.lost += network_loss;
-        for ((kept, work), (law, memory)) in self.kept.iter_mut().zip(works).zip(laws.iter()) {
+        let accounts = self.kept.iter_mut().zip(&self.works);
+        for ((kept, work), (law, memory)) in accounts.zip(laws.iter()) {
             let next = law
                 .stored_energy(now, memory)
                 .unwrap_or(*kept + work.elastic);

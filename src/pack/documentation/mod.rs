@@ -5,6 +5,7 @@ mod origin;
 mod tables;
 mod use_of_it;
 
+use super::FmiVersion;
 use crate::joint::Drive;
 use crate::saved::SavedJoint;
 use crate::variables::Variables;
@@ -13,20 +14,31 @@ use std::fmt::Write as _;
 
 /// The page, complete in itself: no script, no style or picture from elsewhere but the archive's
 /// own icon.
-pub fn html(saved: &SavedJoint, drive: Drive, variables: &Variables, guid: &str) -> String {
+pub fn html(
+    version: FmiVersion,
+    saved: &SavedJoint,
+    drive: Drive,
+    variables: &Variables,
+    guid: &str,
+) -> String {
     let mut page = String::from(HEAD);
     // Writing to a String cannot fail.
     let _ = writeln!(
         page,
-        "<p>{}. Exported by iwan {}; GUID <code>{guid}</code>.</p>",
+        "<p>{}. Exported by iwan {} for co-simulation by FMI {}; {} <code>{guid}</code>.</p>",
         escape(super::description(&saved.joint, drive)),
         env!("CARGO_PKG_VERSION"),
+        version.number(),
+        match version {
+            FmiVersion::Two => "GUID",
+            FmiVersion::Three => "instantiation token",
+        },
     );
     origin::section(&mut page, &saved.provenance);
     equations::section(&mut page, &saved.joint);
     tables::signals(&mut page, variables);
     tables::parameters(&mut page, saved, variables);
-    use_of_it::section(&mut page, drive, &saved.provenance);
+    use_of_it::section(&mut page, version, drive, &saved.provenance);
     page.push_str(SOURCES);
     page
 }

@@ -1,0 +1,136 @@
+//! Every cause tried beside a current set: scored at its vanishing size, the promising ones refitted
+//! jointly with the baseline.
+
+use rayon::prelude::*;
+
+use super::search::{ALARM, dispersion};
+use crate::causes::{CATALOGUE, Cause, Scale};
+use crate::identify::{Fit, Problem, Score, refit, refit_below, scores};
+use crate::joint::effect::Acting;
+
+/// One cause fitted jointly with everything else in the set.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The cause.
+    pub cause: &'static dyn Cause,
+    /// The joint refit with it; only begun where it has no prospect of coming near the best.
+    pub fit: Fit,
+    /// Evidence against the set without it: fall of the misfit over the dispersion left, less the
+    /// penalty for its parameters.
+    pub evidence: f64,
+}
+
+impl std::fmt::Debug for dyn Cause {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How much work trials may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// The best few by their scores, one shape each: enough to tell what is noise.
+    Quick,
+    /// Every cause whose score is worth a refit.
+    Full,
+}
+
+/// Causes refitted in a quick pass, and those that set the bound of a full one.
+const LEADING: usize = 4;
+
+/// Share of the highest score below which no refit is tried: the score is the fall to first order.
+const WORTH: f64 = 0.03;
+
+/// Share of the leader's fall by which a refit may stay behind before it is given up.
+const BEHIND: f64 = 0.15;
+
+/// Tries every cause beside the current set, best first.
+pub fn trials(
+    problem: &Problem,
+    scale: &Scale,
+    timed: bool,
+    current: &Fit,
+    effort: Effort,
+) -> Vec<Trial> {
+    let mut scored = scored(problem, scale, timed, current);
+    let first = |s: &Scored| s.1.first().map_or(0.0, |s| s.fall);
+    scored.sort_by(|a, b| first(b).total_cmp(&first(a)));
+    let highest = scored.first().map_or(0.0, first);
+    let worth = (WORTH * highest).max(0.25 * ALARM);
+    let (leading, others) = scored.split_at(LEADING.min(scored.len()));
+    let shapes = match effort {
+        Effort::Quick => 1,
+        Effort::Full => 2,
+    };
+    let try_one = |(cause, scores): &Scored, bound: f64| {
+        let best = scores
+            .iter()
+            .take(shapes)
+            .filter(|s| s.fall > worth)
+            .map(|s| {
+                let mut effects = current.effects.clone();
+                effects.push(s.acting.clone());
+                match bound.is_finite() {
+                    true => refit_below(problem, current, effects, bound),
+                    false => refit(problem, current, effects),
+                }
+            })
+            .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        let fit = best.unwrap_or_else(|| current.clone());
+        let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
+        Trial {
+            cause: *cause,
+            evidence: fall - penalty(problem, *cause),
+            fit,
+        }
+    };
+    let mut trials: Vec<Trial> = leading
+        .par_iter()
+        .map(|one| try_one(one, f64::INFINITY))
+        .collect();
+    let lowest = trials
+        .iter()
+        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
+    let bound = lowest + BEHIND * (current.misfit - lowest) + ALARM;
+    match effort {
+        Effort::Quick => {}
+        Effort::Full => {
+            trials.par_extend(others.par_iter().map(|one| try_one(one, bound)));
+        }
+    }
+    trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    trials
+}
+
+type Scored = (&'static dyn Cause, Vec<Score>);
+
+/// Every usable cause with the scores of its shapes, best first.
+fn scored(problem: &Problem, scale: &Scale, timed: bool, current: &Fit) -> Vec<Scored> {
+    let usable: Vec<&'static dyn Cause> = CATALOGUE
+        .iter()
+        .copied()
+        .filter(|c| timed || !c.needs_time())
+        .filter(|c| !current.effects.iter().any(|a| a.effect.name() == c.name()))
+        .collect();
+    usable
+        .par_iter()
+        .map(|&cause| {
+            let starts: Vec<Acting> = cause
+                .starts(scale)
+                .into_iter()
+                .map(|values| Acting {
+                    effect: cause.effect(),
+                    values,
+                })
+                .collect();
+            let mut found = scores(problem, current, &starts);
+            found.sort_by(|a, b| b.fall.total_cmp(&a.fall));
+            (cause, found)
+        })
+        .collect()
+}
+
+/// Half the information criterion's penalty of a cause's free values, doubled: `k ln n`.
+fn penalty(problem: &Problem, cause: &dyn Cause) -> f64 {
+    cause.parameters().len() as f64 * (problem.rows().max(3) as f64).ln()
+}

@@ -1,0 +1,246 @@
+//! The inner loops of a march, eight operators at a time: sums run in eight lanes whose order is
+//! fixed, so that every processor gives the same digits, and are compiled for the widest vectors
+//! the processor has.
+
+use pulp::{Arch, NullaryFnOnce};
+
+/// Operators handled together; grids are filled up to a multiple of it.
+pub const LANES: usize = 32;
+
+type Lanes = [f64; LANES];
+
+/// The operators of one march, by column.
+#[derive(Debug, Clone)]
+pub struct Bank {
+    arch: Arch,
+    thresholds: Vec<Lanes>,
+    weights: Vec<Lanes>,
+    positions: Vec<Lanes>,
+    trial: Vec<Lanes>,
+}
+
+#[inline(always)]
+fn lower(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn upper(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn total(lanes: Lanes) -> f64 {
+    let (mut sum, mut half) = (lanes, LANES / 2);
+    while half > 0 {
+        for i in 0..half {
+            sum[i] += sum[i + half];
+        }
+        half /= 2;
+    }
+    sum[0]
+}
+
+/// Filled up with operators of no weight.
+fn columns(values: impl Iterator<Item = f64>) -> Vec<Lanes> {
+    let mut columns = Vec::new();
+    for (i, value) in values.enumerate() {
+        if i % LANES == 0 {
+            columns.push([0.0; LANES]);
+        }
+        if let Some(last) = columns.last_mut() {
+            last[i % LANES] = value;
+        }
+    }
+    columns
+}
+
+impl Bank {
+    /// Virgin operators with the given thresholds and weights.
+    pub fn new(thresholds: &[f64], weights: impl Iterator<Item = f64>) -> Bank {
+        let thresholds = columns(thresholds.iter().copied());
+        Bank {
+            arch: Arch::new(),
+            weights: columns(weights.take(thresholds.len() * LANES)),
+            positions: vec![[0.0; LANES]; thresholds.len()],
+            trial: vec![[0.0; LANES]; thresholds.len()],
+            thresholds,
+        }
+    }
+
+    /// Positions at the last accepted sample, in the order of the thresholds.
+    pub fn positions(&self) -> &[f64] {
+        self.positions.as_flattened()
+    }
+
+    fn columns_mut(&mut self) -> (Arch, Columns<'_>) {
+        let columns = Columns {
+            thresholds: &self.thresholds,
+            weights: &self.weights,
+            positions: &self.positions,
+            trial: &mut self.trial,
+        };
+        (self.arch, columns)
+    }
+
+    /// Plays tried at an input: Σ c P and its tangent; `limits` scale the thresholds by direction.
+    pub fn plays(&mut self, input: f64, limits: (f64, f64)) -> (f64, f64) {
+        let (arch, columns) = self.columns_mut();
+        arch.dispatch(Plays(columns, input, limits))
+    }
+
+    /// Stops tried after an increment of the input: Σ w s and its tangent.
+    pub fn stops(&mut self, increment: f64, limits: (f64, f64)) -> (f64, f64) {
+        let (arch, columns) = self.columns_mut();
+        arch.dispatch(Stops(columns, increment, limits))
+    }
+
+    /// Energy that accepting the plays last tried dissipates \[J\].
+    pub fn slid_plays(&mut self, limits: (f64, f64)) -> f64 {
+        let (arch, columns) = self.columns_mut();
+        arch.dispatch(SlidPlays(columns, limits))
+    }
+
+    /// Energy that accepting the stops last tried after an increment dissipates \[J\].
+    pub fn slid_stops(&mut self, increment: f64) -> f64 {
+        let (arch, columns) = self.columns_mut();
+        arch.dispatch(SlidStops(columns, increment))
+    }
+
+    /// Accepts what was last tried.
+    pub fn accept(&mut self) {
+        std::mem::swap(&mut self.positions, &mut self.trial);
+    }
+}
+
+struct Columns<'a> {
+    thresholds: &'a [Lanes],
+    weights: &'a [Lanes],
+    positions: &'a [Lanes],
+    trial: &'a mut [Lanes],
+}
+
+struct Plays<'a>(Columns<'a>, f64, (f64, f64));
+
+impl NullaryFnOnce for Plays<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn call(self) -> (f64, f64) {
+        let Plays(at, input, (up, down)) = self;
+        // Separate loops: one that does everything is vectorised across its two sums, two wide.
+        let moves = at
+            .positions
+            .as_flattened()
+            .iter()
+            .zip(at.thresholds.as_flattened());
+        for (t, (p, r)) in at.trial.as_flattened_mut().iter_mut().zip(moves) {
+            *t = lower(upper(*p, input - r * up), input + r * down);
+        }
+        (
+            sum(at.trial, at.weights),
+            moved(at.trial, at.positions, at.weights),
+        )
+    }
+}
+
+#[inline(always)]
+fn sum(trial: &[Lanes], weights: &[Lanes]) -> f64 {
+    let mut output = [0.0; LANES];
+    for (t, w) in trial.iter().zip(weights) {
+        for i in 0..LANES {
+            output[i] += w[i] * t[i];
+        }
+    }
+    total(output)
+}
+
+/// Weights of the operators whose position changed.
+#[inline(always)]
+fn moved(trial: &[Lanes], positions: &[Lanes], weights: &[Lanes]) -> f64 {
+    let mut tangent = [0.0; LANES];
+    for ((t, p), w) in trial.iter().zip(positions).zip(weights) {
+        for i in 0..LANES {
+            tangent[i] += if t[i] != p[i] { w[i] } else { 0.0 };
+        }
+    }
+    total(tangent)
+}
+
+/// Weights of the stops that followed the increment.
+#[inline(always)]
+fn followed(trial: &[Lanes], positions: &[Lanes], weights: &[Lanes], increment: f64) -> f64 {
+    let mut tangent = [0.0; LANES];
+    for ((t, p), w) in trial.iter().zip(positions).zip(weights) {
+        for i in 0..LANES {
+            tangent[i] += if t[i] == p[i] + increment { w[i] } else { 0.0 };
+        }
+    }
+    total(tangent)
+}
+
+struct Stops<'a>(Columns<'a>, f64, (f64, f64));
+
+impl NullaryFnOnce for Stops<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn call(self) -> (f64, f64) {
+        let Stops(at, increment, (up, down)) = self;
+        let held = at
+            .positions
+            .as_flattened()
+            .iter()
+            .zip(at.thresholds.as_flattened());
+        for (t, (p, d)) in at.trial.as_flattened_mut().iter_mut().zip(held) {
+            *t = lower(upper(p + increment, -d * down), d * up);
+        }
+        (
+            sum(at.trial, at.weights),
+            followed(at.trial, at.positions, at.weights, increment),
+        )
+    }
+}
+
+struct SlidPlays<'a>(Columns<'a>, (f64, f64));
+
+impl NullaryFnOnce for SlidPlays<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let SlidPlays(at, (up, down)) = self;
+        let mut sum = [0.0; LANES];
+        for (((t, p), r), c) in at
+            .trial
+            .iter()
+            .zip(at.positions)
+            .zip(at.thresholds)
+            .zip(at.weights)
+        {
+            for i in 0..LANES {
+                let moved = t[i] - p[i];
+                sum[i] += c[i] * r[i] * upper(moved * up, -moved * down);
+            }
+        }
+        total(sum)
+    }
+}
+
+struct SlidStops<'a>(Columns<'a>, f64);
+
+impl NullaryFnOnce for SlidStops<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let SlidStops(at, increment) = self;
+        let mut sum = [0.0; LANES];
+        for ((t, p), w) in at.trial.iter().zip(at.positions).zip(at.weights) {
+            for i in 0..LANES {
+                sum[i] += w[i] * t[i] * (increment - (t[i] - p[i]));
+            }
+        }
+        total(sum)
+    }
+}
