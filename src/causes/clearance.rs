@@ -29,6 +29,10 @@ static PARAMETERS: [Parameter; 2] = [
     },
 ];
 
+/// Share of the largest force by which free play has to be crossed: a law that goes on bending up to
+/// the largest force is a spring that softens.
+const SEATED: f64 = 0.4;
+
 impl Effect for Clearance {
     fn name(&self) -> &'static str {
         "clearance"
@@ -62,6 +66,9 @@ impl Cause for Clearance {
     }
     fn effect(&self) -> &'static dyn Effect {
         &Clearance
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[1] < SEATED * scale.force
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.005, 0.015, 0.05, 0.12, 0.3]

@@ -82,6 +82,11 @@ pub trait Cause: Effect {
     /// Where a search starts: full sets of values with a small amplitude, one for each shape worth
     /// trying; the search scales the amplitude itself.
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// False where the fitted values are those of another cause: two laws may be the same formula
+    /// in different ranges.
+    fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {
+        true
+    }
     /// True where the cause depends on time, so that a record without time cannot show it.
     fn needs_time(&self) -> bool {
         false

@@ -28,6 +28,9 @@ static PARAMETERS: [Parameter; 2] = [
     },
 ];
 
+/// Share of a record's dissipated energy below which a loss that is over is running in.
+const LATE: f64 = 0.1;
+
 impl Effect for PreloadLoss {
     fn name(&self) -> &'static str {
         "preload_loss"
@@ -65,6 +68,9 @@ impl Cause for PreloadLoss {
     }
     fn effect(&self) -> &'static dyn Effect {
         &PreloadLoss
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[1] > LATE * scale.dissipation
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.1, 0.4, 2.0]

@@ -1,10 +1,10 @@
-//! `running_in`: friction grows to its lasting value within the first cycles.
+//! `running_in`: friction settles to its lasting value within the first cycles.
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces grow with the energy dissipated, `n = 1 − a exp(−E/E_0)`.
+/// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`.
 pub struct RunningIn;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -12,10 +12,10 @@ static PARAMETERS: [Parameter; 2] = [
         name: "deficit",
         symbol: "a",
         unit: "1",
-        lower: 0.0,
+        lower: -0.98,
         upper: 0.98,
         vanishes_at: Some(0.0),
-        meaning: "share of the break-free forces that the fresh surfaces lack",
+        meaning: "share of the lasting break-free forces that the fresh surfaces lack; negative where they have more",
     },
     Parameter {
         name: "energy",
@@ -27,6 +27,10 @@ static PARAMETERS: [Parameter; 2] = [
         meaning: "dissipated energy over which the surfaces settle",
     },
 ];
+
+/// Share of a record's dissipated energy over which friction that falls has to settle: what takes
+/// longer is lost preload.
+const SOON: f64 = 0.3;
 
 impl Effect for RunningIn {
     fn name(&self) -> &'static str {
@@ -53,13 +57,16 @@ impl Cause for RunningIn {
             happens: "Films and peaks of fresh surfaces wear off in the first cycles; contact spreads, friction grows and then stays.",
             sign: "The first loops are wider and softer than the later ones of the same load; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
-            separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls and then settles is preload loss with a short energy.",
+            separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
             formula: "phi = phi_0 [1 - a exp(-E/E_0)]",
             source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy as the measure of work (Fouvry; Schwingshackl et al. 2012).",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
         &RunningIn
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[0] > 0.0 || values[1] < SOON * scale.dissipation
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.01, 0.05, 0.2, 0.8]

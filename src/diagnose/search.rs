@@ -2,7 +2,7 @@
 //! the baseline, the best set grown forward and pruned backward.
 
 use super::prepare::Bench;
-use super::tested::tested;
+use super::tested::{predicts, tested};
 use super::trials::{Effort, Trial, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Problem, refit};
@@ -17,6 +17,9 @@ pub const ALARM: f64 = 30.0;
 /// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
 /// the named cause's law being only nearly right.
 const FURTHER_SHARE: f64 = 0.10;
+
+/// Causes, best first, whose prediction of held-out cycles is looked at in one round.
+const PREDICTORS: usize = 4;
 
 /// Most causes named together.
 const MOST: usize = 3;
@@ -62,6 +65,9 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
 }
 
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
+///
+/// Of the causes with enough evidence, the best is taken that also predicts held-out cycles better
+/// than the set without it.
 fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Vec<Trial>) {
     let problem = &bench.train;
     let beyond = (baseline.misfit - problem.rows() as f64).max(0.0);
@@ -69,15 +75,19 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
     let mut first: Option<Vec<Trial>> = None;
     for round in 0..MOST {
         let trials = trials(problem, &bench.scale, timed, &current, effort);
-        let Some(best) = trials.first().cloned() else {
-            break;
-        };
+        let enough =
+            |t: &Trial| round == 0 || current.misfit - t.fit.misfit > FURTHER_SHARE * beyond;
+        let next = trials
+            .iter()
+            .filter(|t| t.evidence >= ALARM && enough(t))
+            .take(PREDICTORS)
+            .find(|t| effort == Effort::Quick || predicts(bench, &current, &t.fit))
+            .map(|t| t.fit.clone());
         first.get_or_insert(trials);
-        let enough = round == 0 || current.misfit - best.fit.misfit > FURTHER_SHARE * beyond;
-        if best.evidence < ALARM || !enough {
-            break;
+        match next {
+            Some(fit) => current = prune(problem, fit),
+            None => break,
         }
-        current = prune(problem, best.fit);
     }
     (current, first.unwrap_or_default())
 }
@@ -125,7 +135,7 @@ fn rivals(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> (Vec<Vec<S
             .as_deref()
             .unwrap_or(first)
             .iter()
-            .filter(|t| t.cause.name() != named.effect.name())
+            .filter(|t| t.plausible && t.cause.name() != named.effect.name())
             .filter(|t| t.fit.misfit - best.misfit < MARGIN * scale + unseen)
             .map(|t| t.cause.name().to_string())
             .collect();

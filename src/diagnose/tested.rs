@@ -27,10 +27,14 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    let before = baseline.predict(&bench.train);
-    let (value, _) = ratio(bench, &before, &fit.predict(&bench.train));
-    if !fit.effects.is_empty() && value >= 1.0 {
-        return baseline.clone();
+    if fit.effects.is_empty() || predicts(bench, baseline, &fit) {
+        return fit;
     }
-    fit
+    baseline.clone()
+}
+
+/// True where a set predicts held-out cycles better than the smaller one it has grown from.
+pub fn predicts(bench: &Bench, smaller: &Fit, larger: &Fit) -> bool {
+    let (before, after) = (smaller.predict(&bench.train), larger.predict(&bench.train));
+    ratio(bench, &before, &after).0 < 1.0
 }

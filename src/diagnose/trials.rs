@@ -16,8 +16,10 @@ pub struct Trial {
     /// The joint refit with it; only begun where it has no prospect of coming near the best.
     pub fit: Fit,
     /// Evidence against the set without it: fall of the misfit over the dispersion left, less the
-    /// penalty for its parameters.
+    /// penalty for its parameters; the penalty alone where the values are another cause's.
     pub evidence: f64,
+    /// False where the fitted values are another cause's.
+    pub plausible: bool,
 }
 
 impl std::fmt::Debug for dyn Cause {
@@ -78,9 +80,12 @@ pub fn trials(
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         let fit = best.unwrap_or_else(|| current.clone());
         let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
+        let own = fit.effects.iter().find(|a| a.effect.name() == cause.name());
+        let plausible = own.is_none_or(|a| cause.plausible(&a.values, scale));
         Trial {
             cause: *cause,
-            evidence: fall - penalty(problem, *cause),
+            evidence: if plausible { fall } else { 0.0 } - penalty(problem, *cause),
+            plausible,
             fit,
         }
     };

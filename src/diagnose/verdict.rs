@@ -13,7 +13,7 @@ const STRUCTURED: f64 = 6.0;
 pub const NEGLIGIBLE: f64 = 0.02;
 
 /// Share of the baseline's structure that may be left by a cause whose law is only nearly right.
-const LEFT: f64 = 0.10;
+const LEFT: f64 = 0.04;
 
 /// The verdict, from what baseline and extended model leave.
 ///

@@ -47,6 +47,24 @@ impl Fit {
 /// Most Gauss–Newton steps of one refit.
 const STEPS: usize = 10;
 
+/// Times the size of the effect that a refit starts from is cut to a third: sizes come from a score
+/// to first order.
+const SMALLER: usize = 6;
+
+/// The last of the effects a third as large.
+fn shrunk(effects: &[Acting]) -> Vec<Acting> {
+    let mut smaller = effects.to_vec();
+    let newest = smaller.iter_mut().rev().find(|a| !series::is(a));
+    if let Some(acting) = newest {
+        for (value, parameter) in acting.values.iter_mut().zip(acting.effect.parameters()) {
+            if let Some(zero) = parameter.vanishes_at {
+                *value = zero + (*value - zero) / 3.0;
+            }
+        }
+    }
+    smaller
+}
+
 /// Dampings tried within one step.
 const TRIALS: usize = 7;
 
@@ -69,13 +87,18 @@ pub fn baseline(problem: &Problem) -> Fit {
 
 /// Refits everything from the given start.
 pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
-    begin(problem, start, effects, Steps::full())
+    let steps = Steps {
+        before: start.misfit,
+        ..Steps::full()
+    };
+    begin(problem, start, effects, steps)
 }
 
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.
 pub fn refit_below(problem: &Problem, start: &Fit, effects: Vec<Acting>, bound: f64) -> Fit {
     let steps = Steps {
         bound,
+        before: start.misfit,
         ..Steps::full()
     };
     begin(problem, start, effects, steps)
@@ -124,6 +147,8 @@ struct Steps {
     /// A refit that would need [`PROSPECT`] more steps like its last one to come below this misfit
     /// is given up.
     bound: f64,
+    /// Misfit without the newest effect: a start that is worse begins smaller.
+    before: f64,
 }
 
 /// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
@@ -134,6 +159,7 @@ impl Steps {
         Steps {
             most: STEPS,
             bound: f64::INFINITY,
+            before: f64::INFINITY,
         }
     }
 }
@@ -145,13 +171,21 @@ fn refine(
     steps: Steps,
 ) -> Fit {
     let columns = problem.operators.columns();
-    let predictions = problem.predict(&coefficients, &effects);
+    let mut predictions = problem.predict(&coefficients, &effects);
     let (mut misfit, mut offsets) = problem.misfit(&predictions);
+    for _ in 0..SMALLER {
+        let smaller = shrunk(&effects);
+        let trial = problem.predict(&coefficients, &smaller);
+        let (trial_misfit, trial_offsets) = problem.misfit(&trial);
+        if misfit <= steps.before || trial_misfit >= misfit {
+            break;
+        }
+        (effects, predictions, misfit, offsets) = (smaller, trial, trial_misfit, trial_offsets);
+    }
     let mut errors: Vec<Vec<f64>> = effects
         .iter()
         .map(|a| vec![f64::INFINITY; a.values.len()])
         .collect();
-    let mut predictions = predictions;
     let mut damping = 0.0;
     for round in 0..steps.most {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);

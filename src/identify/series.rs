@@ -74,3 +74,8 @@ pub fn acting(compliance: f64) -> Acting {
         values: vec![compliance],
     }
 }
+
+/// True for the spring in series.
+pub fn is(acting: &Acting) -> bool {
+    acting.effect.name() == SeriesCompliance.name()
+}

@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod noise;
+mod spectrum;
 pub mod split;
 
 /// Force and displacement of one test.

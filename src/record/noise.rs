@@ -1,6 +1,7 @@
 //! The noise of a channel, without a model where cycles of the drive repeat.
 
 use super::cycles::{Cycle, alike, cycles};
+use super::spectrum::fast_noise;
 
 /// Noise of one channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,9 +101,16 @@ fn calm(parts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Noise of a residual that nothing repeats in: its own variance and correlation of neighbours.
+/// Noise of a residual that nothing repeats in.
+///
+/// Its own variance and correlation of neighbours, unless the fast part of its spectrum belongs to
+/// noise of less than half that variance: the rest is then structure that a model misses.
 pub fn from_residual(residual: &[f64]) -> Noise {
     let (deviation, autoregression) = moments(&[residual.to_vec()]);
+    let (deviation, autoregression) = match fast_noise(residual) {
+        Some(fast) if 2.0 * fast.0.powi(2) < deviation.powi(2) => fast,
+        _ => (deviation, autoregression),
+    };
     Noise {
         deviation,
         autoregression,

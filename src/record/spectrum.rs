@@ -1,0 +1,113 @@
+//! Noise read off the fast half of a residual's spectrum, where a model's errors hardly reach.
+
+use std::f64::consts::{PI, TAU};
+
+/// Samples of a segment; neighbouring segments overlap by half.
+const SEGMENT: usize = 128;
+
+/// First bin used: what is slower than an eighth of the sampling rate's half may be structure.
+const FIRST: usize = SEGMENT / 16;
+
+/// Fewest segments whose median tells a spectrum.
+const FEWEST: usize = 7;
+
+/// First-order autoregressive noise `S(ω) = s²/(1 − 2a cos ω + a²)` that fits the fast part of the
+/// spectrum best (Whittle's likelihood): standard deviation and correlation of neighbours; `None`
+/// where the residual is too short.
+///
+/// The periodogram is a median over segments, so that kinks and bursts of structure count little.
+pub fn fast_noise(residual: &[f64]) -> Option<(f64, f64)> {
+    let spectrum = spectrum(residual)?;
+    let band = FIRST..SEGMENT / 2;
+    let shape = |a: f64, bin: usize| {
+        1.0 / (1.0 - 2.0 * a * (TAU * bin as f64 / SEGMENT as f64).cos() + a * a)
+    };
+    let innovation = |a: f64| {
+        let sum: f64 = band.clone().map(|bin| spectrum[bin] / shape(a, bin)).sum();
+        sum / band.len() as f64
+    };
+    let against = |a: f64| {
+        let logs: f64 = band.clone().map(|bin| shape(a, bin).ln()).sum();
+        innovation(a).ln() + logs / band.len() as f64
+    };
+    let best = (0..100)
+        .map(|step| 0.01 * f64::from(step))
+        .min_by(|&x, &y| against(x).total_cmp(&against(y)))?;
+    let variance = innovation(best) / (1.0 - best * best);
+    variance.is_finite().then(|| (variance.sqrt(), best))
+}
+
+/// Median periodogram over overlapping segments under a Hann window, scaled so that white noise of
+/// unit variance gives one in every bin.
+fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
+    let starts: Vec<usize> = (0..)
+        .map(|k| k * SEGMENT / 2)
+        .take_while(|start| start + SEGMENT <= residual.len())
+        .collect();
+    if starts.len() < FEWEST {
+        return None;
+    }
+    let phase = |i: usize| TAU * i as f64 / SEGMENT as f64;
+    let window: Vec<f64> = (0..SEGMENT)
+        .map(|i| (PI * i as f64 / SEGMENT as f64).sin().powi(2))
+        .collect();
+    let power: f64 = window.iter().map(|w| w * w).sum();
+    let turns: Vec<(f64, f64)> = (0..SEGMENT).map(|i| phase(i).sin_cos()).collect();
+    let mut bins = vec![Vec::with_capacity(starts.len()); SEGMENT / 2];
+    for start in starts {
+        let part = &residual[start..start + SEGMENT];
+        let mean = part.iter().sum::<f64>() / SEGMENT as f64;
+        let part: Vec<f64> = part
+            .iter()
+            .zip(&window)
+            .map(|(x, w)| (x - mean) * w)
+            .collect();
+        for (bin, values) in bins.iter_mut().enumerate() {
+            let (mut real, mut imaginary) = (0.0, 0.0);
+            for (i, x) in part.iter().enumerate() {
+                let (sine, cosine) = turns[i * bin % SEGMENT];
+                real += x * cosine;
+                imaginary += x * sine;
+            }
+            values.push((real * real + imaginary * imaginary) / power);
+        }
+    }
+    // The median of a variable that is distributed as χ²₂/2 is ln 2 of its mean.
+    let median = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2] / std::f64::consts::LN_2
+    };
+    Some(bins.iter_mut().map(median).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// Coloured noise of unit variance, nearly normal, beneath a slow wave five times as large.
+    fn record(correlation: f64, wave: f64) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut last = 0.0;
+        (0..6000)
+            .map(|i| {
+                let normal = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+                last = correlation * last + (1.0 - correlation * correlation).sqrt() * normal;
+                last + wave * (0.04 * f64::from(i)).sin()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn noise_is_told_with_and_without_a_slow_wave_above_it() {
+        for correlation in [0.0, 0.5, 0.8] {
+            for wave in [0.0, 5.0] {
+                let (deviation, found) = fast_noise(&record(correlation, wave)).unwrap();
+                assert!((found - correlation).abs() < 0.07, "{correlation}: {found}");
+                assert!((deviation - 1.0).abs() < 0.15, "{correlation}: {deviation}");
+            }
+        }
+        assert_eq!(fast_noise(&[1.0; 100]), None);
+    }
+}
