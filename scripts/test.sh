@@ -41,6 +41,7 @@ step "blind tests"                    "$PYTHON" tests/blind/run.py --iwan "$IWAN
 step "demo"                           scripts/demo.sh "$demo_result"
 step "what the demo leaves"           "$PYTHON" tests/demo/check.py "$demo_result"
 step "FMU in fmpy"                    "$PYTHON" tests/fmu/run_fmpy.py
+step "coupled resonator"              "$PYTHON" -m unittest -q resonator_decay
 
 wanted() {
     [ $# -eq 1 ] && return 0

@@ -6,13 +6,20 @@
 //!   "density": {"family": "four_parameter", "slip_force": 1000.0, "…": 0.0},
 //!   "series_stiffness": null,
 //!   "causes": [{"name": "pinning", "parameters": {"…": 0.0}}],
-//!   "provenance": {"records": [{"name": "bolt-1", "samples": 4000, "sha256": "…"}], "date": "…"},
+//!   "provenance": {
+//!     "records": [{"name": "bolt-1", "samples": 4000, "sha256": "…",
+//!                  "duration": 8.0, "sample_interval": 0.002}],
+//!     "date": "2024-05-01T12:00:00Z",
+//!     "verdict": {"word": "explained", "held_out_rms_ratio": 0.2, "interval": [0.18, 0.23]}
+//!   },
 //!   "intervals": {"slip_force": [990.0, 1010.0]}
 //! }
 //! ```
 //! Parameters stand under their glossary names. `null` is infinity: a rigid series spring, or a
 //! bound that the data do not set. Every finite number survives a round trip to the last bit.
 
+mod entry;
+mod origin;
 mod reading;
 mod writing;
 
@@ -38,20 +45,22 @@ pub struct SavedJoint {
 }
 
 /// What a joint was identified from.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Provenance {
     /// The records.
     pub records: Vec<RecordUsed>,
-    /// When, as ISO 8601.
+    /// When, as ISO 8601 in UTC.
     pub date: Option<String>,
     /// What wrote the file, with its version.
     pub tool: Option<String>,
     /// In words, for joints that no record stands behind.
     pub remark: Option<String>,
+    /// What the diagnosis found, where there was one.
+    pub verdict: Option<Judgement>,
 }
 
 /// One record that a joint was identified from.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RecordUsed {
     /// File stem.
     pub name: String,
@@ -59,6 +68,41 @@ pub struct RecordUsed {
     pub samples: usize,
     /// Hash of the file's content, hexadecimal.
     pub sha256: String,
+    /// Times from the first to the last sample, where the record has times.
+    pub span: Option<Span>,
+}
+
+/// How long a record is, and how closely sampled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Last time minus first \[s\].
+    pub duration: f64,
+    /// Mean distance of the samples \[s\].
+    pub sample_interval: f64,
+}
+
+impl Span {
+    /// Of sample times \[s\]; `None` for fewer than two, or where time does not run forward.
+    pub fn of(time: &[f64]) -> Option<Span> {
+        let (first, last) = (time.first()?, time.last()?);
+        let duration = last - first;
+        let steps = time.len() - 1;
+        (duration.is_finite() && duration > 0.0).then(|| Span {
+            duration,
+            sample_interval: duration / steps as f64,
+        })
+    }
+}
+
+/// What a diagnosis found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// `clean`, `explained`, `partly_explained` or `unexplained`.
+    pub word: String,
+    /// Held-out rms error after the causes over before; `None` where nothing was held out.
+    pub held_out_rms_ratio: Option<f64>,
+    /// Its 95 % interval.
+    pub interval: Option<(f64, f64)>,
 }
 
 /// Why a joint.json was refused.

@@ -63,11 +63,10 @@ fn folder() -> PathBuf {
     fs::create_dir_all(folder.join("examples")).unwrap();
     for entry in fs::read_dir(root().join("examples")).unwrap() {
         let entry = entry.unwrap();
-        fs::copy(
-            entry.path(),
-            folder.join("examples").join(entry.file_name()),
-        )
-        .unwrap();
+        if entry.path().is_file() {
+            let copy = folder.join("examples").join(entry.file_name());
+            fs::copy(entry.path(), copy).unwrap();
+        }
     }
     folder
 }

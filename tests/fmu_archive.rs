@@ -123,15 +123,35 @@ fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
     assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
     let packed = entry(&archive, "binaries/x86_64-linux/IwanJoint.so");
     assert_eq!(packed, std::fs::read(library()).expect("the library"));
+    let terminals = entry(&archive, iwan::pack::terminals::ENTRY);
+    assert_eq!(terminals, iwan::pack::terminals::xml().expect("XML"));
+    assert_eq!(
+        entry(&archive, iwan::pack::terminals::ICON_ENTRY),
+        iwan::pack::ICON
+    );
+    let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+    assert!(
+        page.contains("FMI 3.0") && page.contains("fmi3DoStep"),
+        "{page}"
+    );
 }
 
 #[test]
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");
     let elf = library().display().to_string();
-    // A library of another platform, as far as its first bytes and its stamp go.
-    let mut pe = b"MZ".to_vec();
-    pe.extend(iwan::variables::STAMP.as_bytes());
+    // Libraries of other platforms, as far as their heads and their stamps go.
+    let stamp = iwan::variables::STAMP.as_bytes();
+    let mut pe = vec![0; 64];
+    pe[..2].copy_from_slice(b"MZ");
+    pe[60] = 64;
+    pe.extend(b"PE\0\0\x64\x86");
+    pe.extend(stamp);
+    let mut arm = vec![0; 64];
+    arm[..5].copy_from_slice(b"\x7fELF\x02");
+    arm[18] = 183;
+    arm.extend(stamp);
+    std::fs::write(folder.join("arm.so"), &arm).expect("a file");
     std::fs::write(folder.join("IwanJoint.dll"), &pe).expect("a file");
     let (linux, windows) = (format!("linux64={elf}"), "win64=IwanJoint.dll");
     let arguments = [
@@ -142,9 +162,12 @@ fn several_platforms_in_one_archive() {
         &linux,
         "--binary",
         windows,
+        "--binary",
+        "aarch64-linux=arm.so",
     ];
     let archive = fine(&folder, &arguments);
     assert_eq!(entry(&archive, "binaries/win64/IwanJoint.dll"), pe);
+    assert_eq!(entry(&archive, "binaries/aarch64-linux/IwanJoint.so"), arm);
     assert!(!entry(&archive, "binaries/linux64/IwanJoint.so").is_empty());
     let twice = [
         "joint.json",
@@ -181,7 +204,9 @@ fn every_bad_library_is_told_apart() {
         "expected a 64-bit ELF",
     );
     let stale = folder.join("stale.so");
-    std::fs::write(&stale, b"\x7fELF\x02 of other sources").expect("a file");
+    let mut head = b"\x7fELF\x02 of other sources".to_vec();
+    head[18..20].copy_from_slice(&62_u16.to_le_bytes());
+    std::fs::write(&stale, head).expect("a file");
     refused(
         &folder,
         Some(&stale),
@@ -191,6 +216,14 @@ fn every_bad_library_is_told_apart() {
     refused(&folder, Some(&stale), &arguments, iwan::pack::BUILD_COMMAND);
     let with = |binary: &'static str| ["joint.json", "-o", "joint.fmu", "--binary", binary];
     refused(&folder, None, &with("linux64"), "expected PLATFORM=FILE");
+    let swapped = format!("aarch64-linux={}", library().display());
+    let arguments = ["joint.json", "-o", "joint.fmu", "--binary", &swapped];
+    refused(
+        &folder,
+        None,
+        &arguments,
+        "expected a 64-bit ELF library for ARM",
+    );
     refused(
         &folder,
         None,
@@ -307,4 +340,127 @@ fn the_library_exports_the_fmi_functions_and_nothing_else() {
         "{symbols:?}"
     );
     assert_eq!(symbols.len(), 34 + FUNCTIONS_OF_FMI_3, "{symbols:?}");
+}
+
+/// What the licence file names is what cargo links: a package that comes or goes must change it.
+#[test]
+fn every_linked_package_is_named_in_the_licence() {
+    let tree = Command::new(env!("CARGO"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["tree", "--locked", "--offline", "--no-default-features"])
+        .args(["--edges", "normal,no-proc-macro", "--prefix", "none"])
+        .args(["--format", "{p} {l}"])
+        .output()
+        .expect("cargo runs");
+    assert!(
+        tree.status.success(),
+        "{}",
+        String::from_utf8_lossy(&tree.stderr)
+    );
+    let listing = String::from_utf8(tree.stdout).expect("UTF-8");
+    // `name version licence`; the first line is this package.
+    let mut linked: Vec<_> = listing
+        .lines()
+        .skip(1)
+        .map(|line| line.trim_end_matches(" (*)"))
+        .filter_map(|line| {
+            let mut words = line.splitn(3, ' ');
+            Some((words.next()?, words.nth(1)?))
+        })
+        .collect();
+    linked.sort_unstable();
+    linked.dedup();
+    assert_eq!(linked, iwan::pack::LINKED);
+}
+
+/// What is known of the joint stands in the archive: records, verdict, intervals, rate and date.
+#[test]
+fn the_archive_tells_where_its_numbers_come_from() {
+    let folder = folder("origin");
+    let mut joint: serde_json::Value = serde_json::from_str(JOINT).expect("JSON");
+    joint["provenance"] = serde_json::json!({
+        "records": [{"name": "bolt & nut", "samples": 401, "sha256": "ab12",
+                     "duration": 8.0, "sample_interval": 0.02}],
+        "date": "2024-05-01T12:00:00Z",
+        "tool": "a <test>",
+        "verdict": {"word": "explained", "held_out_rms_ratio": 0.25, "interval": [0.2, 0.3]},
+    });
+    joint["intervals"] = serde_json::json!({
+        "coefficient": [3.5, 4.5], "exponent": [null, 0.5], "joint_stiffness": [null, null],
+    });
+    let joint = joint.to_string();
+    std::fs::write(folder.join("joint.json"), &joint).expect("a joint");
+    let archive = fine(&folder, &["joint.json", "-o", "joint.fmu"]);
+    let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+    for told in [
+        "bolt &amp; nut",
+        "<code>ab12</code>",
+        "Verdict: <strong>explained</strong>",
+        "0.250 (95 %: 0.200 … 0.300)",
+        "a &lt;test&gt;, 2024-05-01T12:00:00Z",
+        "--stop-time 8 --step-size 0.02",
+        "3.500000e0 … 4.500000e0",
+        "below 5.000000e-1",
+        "<code>joint_stiffness</code>: not bounded by the data",
+        "The response is exact",
+    ] {
+        assert!(page.contains(told), "{told}\n{page}");
+    }
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    assert!(
+        xml.contains("startTime=\"0\" stopTime=\"8.0\" stepSize=\"0.02\""),
+        "{xml}"
+    );
+    assert!(
+        xml.contains("generationDateAndTime=\"2024-05-01T12:00:00Z\""),
+        "{xml}"
+    );
+}
+
+/// Folders of both versions; Linux on ARM has one name in either.
+#[test]
+fn platforms_have_the_names_of_each_version() {
+    use iwan::pack::{FmiVersion, Library};
+    for (platform, folder, file) in [
+        ("linux64", "x86_64-linux", "IwanJoint.so"),
+        ("win64", "x86_64-windows", "IwanJoint.dll"),
+        ("darwin64", "x86_64-darwin", "IwanJoint.dylib"),
+        ("linux32", "x86-linux", "IwanJoint.so"),
+        ("win32", "x86-windows", "IwanJoint.dll"),
+        ("darwin32", "x86-darwin", "IwanJoint.dylib"),
+        ("aarch64-linux", "aarch64-linux", "IwanJoint.so"),
+    ] {
+        let library = Library {
+            platform,
+            path: PathBuf::new(),
+            bytes: vec![],
+        };
+        let entries = [FmiVersion::Two, FmiVersion::Three].map(|version| library.entry(version));
+        let expected = [platform, folder].map(|folder| format!("binaries/{folder}/{file}"));
+        assert_eq!(entries, expected);
+    }
+}
+
+/// The terminal of FMI 3.0 names variables that every joint has.
+#[test]
+fn the_terminal_names_variables_of_the_joint() {
+    let xml = iwan::pack::terminals::xml().expect("XML");
+    std::fs::write(folder("terminals").join("terminalsAndIcons.xml"), &xml).expect("a file");
+    let xml = String::from_utf8(xml).expect("UTF-8");
+    let joint = iwan::saved::read(JOINT, "joint.json")
+        .expect("a joint")
+        .joint;
+    let variables = iwan::variables::Variables::of(&joint, Drive::Force).expect("variables");
+    let named: Vec<_> = xml
+        .split("variableName=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect();
+    assert_eq!(named, ["displacement", "force"]);
+    for name in named {
+        assert!(
+            variables.iter().any(|variable| variable.name == name),
+            "{name}"
+        );
+    }
 }

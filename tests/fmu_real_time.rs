@@ -62,7 +62,8 @@ const CAUSES: &str = r#"
     {"name": "slack_growth", "parameters": {"growth": 1e-9, "threshold": 300.0,
                                             "seating_force": 10.0}},
     {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5,
-                                       "gap_negative": 2e-5}},
+                                       "gap_negative": 2e-5,
+                                       "rounding": 0, "stiffness_ratio": 1}},
     {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
     {"name": "rate_dependent_friction", "parameters": {"gain": 0.02,
                                                        "reference_rate": 1e-4}}"#;

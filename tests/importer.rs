@@ -112,6 +112,21 @@ fn a_foreign_archive_is_refused() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// The importer behind `iwan check` is one of FMI 2.0; an archive of FMI 3.0 is told by its name.
+#[test]
+fn an_archive_of_fmi_3_is_refused_with_a_message() {
+    let folder = exported("three", "[]", "force");
+    let output = iwan(
+        &folder,
+        &["export", "joint.json", "-o", "three.fmu", "--fmi", "3"],
+    );
+    assert_eq!(output.status.code(), Some(0));
+    let output = iwan(&folder, &["check", "three.fmu"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("three.fmu: is no FMI 2.0 archive"), "{told}");
+}
+
 #[test]
 fn the_xml_reads_back_as_it_was_meant() {
     let folder = exported("xml", CAUSES, "force");
@@ -139,4 +154,98 @@ fn the_xml_reads_back_as_it_was_meant() {
         .collect();
     assert_eq!(names, meant);
     assert_eq!(description.guid, iwan::variables::guid(&text, drive));
+}
+
+/// A record is shown beside the joint's answer, and a step that steps over its cycles is called
+/// too coarse, with what it loses.
+#[test]
+fn a_record_is_compared_and_its_step_is_judged() {
+    let folder = exported("record", "[]", "force");
+    // Twenty cycles per second and a displacement that is 2 % of a linear joint's off.
+    let mut csv = String::from("time [s],force [N],displacement [m]\n");
+    for row in 0..=2000 {
+        let time = f64::from(row) / 2000.0;
+        let force = 600.0 * (std::f64::consts::TAU * 20.0 * time).sin();
+        csv += &format!("{time},{force},{}\n", force / 1.1e7);
+    }
+    std::fs::write(folder.join("record.csv"), csv).expect("a record");
+    let check = |arguments: &[&str]| -> Value {
+        let command = [&["check", "joint.fmu", "record.csv", "--json"], arguments].concat();
+        serde_json::from_str(&fine(&folder, &command)).expect("JSON")
+    };
+    let fine_step = check(&["--step", "0.0005"]);
+    assert_eq!(fine_step["verdict"], "agrees");
+    assert_eq!(fine_step["faults"], serde_json::json!([]));
+    assert_eq!(fine_step["platforms"], serde_json::json!(["linux64"]));
+    assert_eq!(fine_step["steps"]["too_coarse"], false);
+    let cycle = fine_step["steps"]["shortest_cycle"]
+        .as_f64()
+        .expect("a cycle");
+    assert!((cycle - 0.05).abs() < 0.001, "{cycle}");
+    // A straight line dissipates nothing; the joint does.
+    let work = |key: &str| fine_step["measured"][key].as_f64().expect("work");
+    assert!(work("work_measured").abs() < 0.01 * work("work_simulated"));
+    let rms = fine_step["measured"]["rms"].as_f64().expect("rms");
+    let swing = fine_step["measured"]["swing"].as_f64().expect("swing");
+    assert!((0.001..0.5).contains(&(rms / swing)), "{rms} of {swing}");
+    let coarse = check(&["--step", "0.006"]);
+    assert_eq!(coarse["steps"]["too_coarse"], true);
+    let lost = coarse["steps"]["lost"].as_f64().expect("a share");
+    assert!((0.02..0.9).contains(&lost), "{lost}");
+    let advised = coarse["steps"]["advised_step"].as_f64().expect("a step");
+    let advised = check(&["--step", &advised.to_string()]);
+    assert_eq!(advised["steps"]["too_coarse"], false);
+    let text = fine(
+        &folder,
+        &["check", "joint.fmu", "record.csv", "--step", "0.006"],
+    );
+    assert!(text.contains("TOO COARSE"), "{text}");
+    let output = iwan(
+        &folder,
+        &["check", "joint.fmu", "record.csv", "--step", "-1"],
+    );
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// XML that no longer says what the joint is: another start value, another unit, no library.
+#[test]
+fn an_archive_whose_parts_disagree_is_refused() {
+    let folder = exported("disagree", "[]", "force");
+    let spoilt = |name: &str, from: &str, to: &str, dropped: &str| {
+        let file = std::fs::File::open(folder.join("joint.fmu")).expect("the archive");
+        let mut old = zip::ZipArchive::new(file).expect("a zip file");
+        let file = std::fs::File::create(folder.join(name)).expect("a file");
+        let mut new = zip::ZipWriter::new(file);
+        let names: Vec<String> = old.file_names().map(str::to_owned).collect();
+        for entry in names.iter().filter(|entry| !entry.starts_with(dropped)) {
+            let mut bytes = Vec::new();
+            std::io::copy(&mut old.by_name(entry).expect("an entry"), &mut bytes).expect("bytes");
+            if entry == "modelDescription.xml" {
+                let text = String::from_utf8(bytes).expect("UTF-8");
+                assert!(text.contains(from), "{text}");
+                bytes = text.replace(from, to).into_bytes();
+            }
+            new.start_file(entry, zip::write::SimpleFileOptions::default())
+                .expect("an entry");
+            std::io::Write::write_all(&mut new, &bytes).expect("bytes");
+        }
+        new.finish().expect("an archive");
+        let output = iwan(&folder, &["check", name]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        told
+    };
+    let nothing = "no entry begins with this";
+    let told = spoilt("start.fmu", "start=\"1000.0\"", "start=\"999.0\"", nothing);
+    assert!(
+        told.contains("variable slip_force: start expected"),
+        "{told}"
+    );
+    let told = spoilt("unit.fmu", "unit=\"J\"", "unit=\"W\"", nothing);
+    assert!(told.contains("unit expected J, came W"), "{told}");
+    let told = spoilt("page.fmu", "<", "<", "documentation/index.html");
+    assert!(
+        told.contains("documentation/index.html is missing"),
+        "{told}"
+    );
 }

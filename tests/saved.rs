@@ -5,7 +5,7 @@ use std::path::Path;
 
 use iwan::causes::{CATALOGUE, Kind};
 use iwan::joint::{Acting, Density, Drive, FourParameter, Joint, PowerLaw, PowerLawTable, Sliders};
-use iwan::saved::{Provenance, RecordUsed, SavedError, SavedJoint, read, write};
+use iwan::saved::{Judgement, Provenance, RecordUsed, SavedError, SavedJoint, Span, read, write};
 use proptest::prelude::*;
 
 fn saved(density: Density, series_stiffness: f64, effects: Vec<Acting>) -> SavedJoint {
@@ -15,10 +15,16 @@ fn saved(density: Density, series_stiffness: f64, effects: Vec<Acting>) -> Saved
             name: "bolt \"1\"".into(),
             samples: 4000,
             sha256: "ab12".into(),
+            span: Span::of(&[0.1, 0.2, 0.4]),
         }],
         date: Some("2024-05-01".into()),
         tool: Some("iwan 0.1.0".into()),
         remark: None,
+        verdict: Some(Judgement {
+            word: "explained".into(),
+            held_out_rms_ratio: Some(0.1 + 0.2),
+            interval: Some((0.25, f64::INFINITY)),
+        }),
     };
     let mut intervals = BTreeMap::new();
     intervals.insert("series_stiffness".to_string(), (1.0 / 3.0, f64::INFINITY));

@@ -6,6 +6,12 @@ mod importer;
 #[cfg(feature = "importer")]
 mod load;
 #[cfg(feature = "importer")]
+mod measured;
+#[cfg(feature = "importer")]
+mod steps;
+#[cfg(feature = "importer")]
+mod validation;
+#[cfg(feature = "importer")]
 mod verdict;
 
 use super::BadInput;
@@ -14,8 +20,10 @@ use std::path::PathBuf;
 
 /// Load an exported joint, run it and compare.
 ///
-/// The archive is loaded through the `fmi` crate and driven step by step; the joint.json inside it
-/// is simulated beside it. The two must agree to rounding.
+/// The archive's XML and libraries are held against the joint.json inside it; the archive is loaded
+/// through the `fmi` crate and driven step by step, and must agree with `iwan simulate` to rounding.
+/// With a record it also says how the joint answers beside the measurement, and what the
+/// dissipation loses by the importer's communication step.
 #[derive(Debug, clap::Args)]
 pub struct Check {
     /// The archive of `iwan export` or `iwan diagnose`
@@ -24,6 +32,10 @@ pub struct Check {
     /// The load: a file with time, and force or displacement by the archive's drive; by default a
     /// growing two-tone load that is made for the joint
     record: Option<PathBuf>,
+    /// The importer's communication step \[s\] to judge; by default the one that the archive
+    /// suggests
+    #[arg(long, value_name = "SECONDS", requires = "record")]
+    step: Option<f64>,
     /// Result as JSON
     #[arg(long)]
     json: bool,
@@ -43,20 +55,44 @@ pub fn run(arguments: &Check) -> anyhow::Result<()> {
         Some(record) => load::Load::read(record, &arguments.foreign, archive.drive())?,
         None => load::Load::made_for(archive.joint(), archive.drive())?,
     };
-    let verdict = archive.compare(&load)?;
+    let mut verdict = archive.compare(&load)?;
+    if arguments.record.is_some() && load.time.len() > 2 {
+        let step = judged_step(arguments.step, archive.default_step(), &load)?;
+        let steps = steps::Steps::of(archive.joint(), archive.drive(), &load, step)?;
+        verdict.steps = Some(steps);
+    }
     let shown = arguments.archive.display().to_string();
     super::output::print(&if arguments.json {
         verdict.json(&shown)
     } else {
         verdict.text(&shown)
     })?;
+    if let Some(fault) = archive.validation().faults.first() {
+        return Err(BadInput(format!("{shown}: {fault}")).into());
+    }
     if verdict.agrees() {
         return Ok(());
     }
-    Err(BadInput(format!(
-        "{shown}: does not answer as its own resources/joint.json"
-    ))
-    .into())
+    let reason = "does not answer as its own resources/joint.json";
+    Err(BadInput(format!("{shown}: {reason}")).into())
+}
+
+/// The step that was asked for, else the archive's own, else the record's.
+#[cfg(feature = "importer")]
+fn judged_step(
+    asked: Option<f64>,
+    own: Option<f64>,
+    load: &load::Load,
+) -> Result<(f64, &'static str), BadInput> {
+    let span = load.time[load.time.len() - 1] - load.time[0];
+    match (asked, own) {
+        (Some(step), _) if !(step > 0.0 && step <= span) => Err(BadInput(format!(
+            "--step {step}: expected seconds above 0 and up to the record's {span}"
+        ))),
+        (Some(step), _) => Ok((step, "as asked for")),
+        (None, Some(step)) if step <= span => Ok((step, "the archive's default")),
+        _ => Ok((span / (load.time.len() - 1) as f64, "the record's own")),
+    }
 }
 
 /// Tells how to build the importer.

@@ -1,6 +1,7 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
 use super::input::{BesideTable, Records};
+use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
@@ -11,7 +12,7 @@ use crate::pack::{Archive, Library};
 use crate::read::Loaded;
 use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
-use crate::saved::{Provenance, RecordUsed, SavedJoint, write};
+use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -117,7 +118,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
     let joint = match &missing {
-        None => Some(write(&saved(&findings))),
+        None => Some(write(&saved(&findings, &loaded))),
         Some(why) => {
             eprintln!("neither joint.json nor joint.fmu is written: {why}");
             None
@@ -227,31 +228,29 @@ fn flat(channel: &[f64]) -> bool {
     channel.windows(2).all(|pair| pair[0] == pair[1])
 }
 
-fn saved(findings: &Findings) -> SavedJoint {
-    let records = findings
-        .records
+fn saved(findings: &Findings, loaded: &[Loaded]) -> SavedJoint {
+    let open = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut intervals: BTreeMap<_, _> = findings
+        .joint_parameters
         .iter()
-        .map(|(name, samples, sha256)| RecordUsed {
-            name: name.clone(),
-            samples: *samples,
-            sha256: sha256.clone(),
-        })
+        .map(|estimate| (estimate.name.clone(), estimate.interval.unwrap_or(open)))
         .collect();
-    let mut intervals = BTreeMap::new();
     for cause in findings.causes.iter().filter(|c| c.kind == "joint") {
         for parameter in &cause.parameters {
-            if let Some(interval) = parameter.interval {
-                intervals.insert(format!("{}.{}", cause.name, parameter.name), interval);
-            }
+            let name = format!("{}.{}", cause.name, parameter.name);
+            intervals.insert(name, parameter.interval.unwrap_or(open));
         }
     }
     SavedJoint {
         joint: findings.joint.clone(),
         provenance: Provenance {
-            records,
-            date: None,
-            tool: Some(format!("iwan {}", env!("CARGO_PKG_VERSION"))),
             remark: Some(findings.summary.clone()),
+            verdict: Some(Judgement {
+                word: findings.verdict.name().to_owned(),
+                held_out_rms_ratio: Some(findings.gain.0).filter(|ratio| ratio.is_finite()),
+                interval: findings.gain.1,
+            }),
+            ..provenance(loaded, "diagnose")
         },
         intervals,
     }

@@ -7,8 +7,7 @@ mod text;
 use super::BadInput;
 use super::input::{BesideTable, Records};
 use super::output;
-use crate::read::Loaded;
-use crate::saved::{Provenance, RecordUsed, SavedJoint};
+use crate::saved::SavedJoint;
 use found::Found;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -61,7 +60,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     };
     let saved = SavedJoint {
         joint: joint.clone(),
-        provenance: provenance(&loaded),
+        provenance: super::provenance::provenance(&loaded, "identify"),
         intervals: intervals(&found),
     };
     output::write(&arguments.output, |out| {
@@ -70,21 +69,6 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     })?;
     eprintln!("wrote {}", arguments.output.display());
     Ok(())
-}
-
-fn provenance(loaded: &[Loaded]) -> Provenance {
-    Provenance {
-        records: loaded
-            .iter()
-            .map(|one| RecordUsed {
-                name: found::name(one),
-                samples: found::samples(one),
-                sha256: one.sha256.clone(),
-            })
-            .collect(),
-        tool: Some(format!("iwan identify {}", env!("CARGO_PKG_VERSION"))),
-        ..Provenance::default()
-    }
 }
 
 /// Intervals by glossary name; infinite where the data do not bound a value.

@@ -7,6 +7,7 @@ mod export;
 mod identify;
 pub mod input;
 pub mod output;
+mod provenance;
 mod simulate;
 
 use clap::{Parser, Subcommand};

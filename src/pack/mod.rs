@@ -1,21 +1,33 @@
 //! The .fmu archive: modelDescription.xml, documentation, the joint, the shared libraries.
 
+mod display_unit;
 mod documentation;
 mod error;
+mod experiment;
 mod library;
+mod licence;
 mod model_description;
 mod model_description_3;
+mod nominal;
+pub mod terminals;
 mod unit;
+mod version;
 
 pub use error::PackError;
+pub use experiment::Experiment;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};
-pub use model_description_3::FmiVersion;
+pub use licence::LINKED;
+pub use nominal::Nominal;
+pub use version::FmiVersion;
 
 use crate::joint::{Drive, Joint};
 use crate::saved;
 use crate::variables::{Variables, guid};
 use std::io::{Cursor, Write};
 use zip::write::{SimpleFileOptions, ZipWriter};
+
+/// The icon: a joint between two bodies, and its hysteresis loop. Drawn by scripts/icon.py.
+pub const ICON: &[u8] = include_bytes!("icon.png");
 
 /// The entries of an archive; the same joint, drive and libraries give the same bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,32 +61,45 @@ impl Archive {
         drive: Drive,
         libraries: &[Library],
     ) -> Result<Archive, PackError> {
-        let joint = saved::read(joint_json, file)?.joint;
-        let variables = Variables::of(&joint, drive)?;
-        check_starts(&variables, &joint)?;
+        let saved = saved::read(joint_json, file)?;
+        let variables = Variables::of(&saved.joint, drive)?;
+        check_starts(&variables, &saved.joint)?;
         check_platforms(libraries)?;
         let guid = guid(joint_json, drive);
-        let xml = match version {
-            FmiVersion::Two => model_description::xml(&joint, drive, &variables, &guid),
-            FmiVersion::Three => model_description_3::xml(&joint, drive, &variables, &guid),
+        let entry = |name: &str, bytes: std::io::Result<Vec<u8>>| match bytes {
+            Ok(bytes) => Ok((name.to_owned(), bytes)),
+            Err(error) => Err(PackError::Entry {
+                name: name.to_owned(),
+                error,
+            }),
         };
-        let xml = xml.map_err(|error| PackError::Entry {
-            name: "modelDescription.xml".to_owned(),
-            error,
-        })?;
-        let page = documentation::html(&joint, drive, &variables, &guid);
-        let mut entries = vec![
-            ("modelDescription.xml".to_owned(), xml),
-            ("documentation/index.html".to_owned(), page.into_bytes()),
+        let xml = match version {
+            FmiVersion::Two => model_description::xml(&saved, drive, &variables, &guid),
+            FmiVersion::Three => model_description_3::xml(&saved, drive, &variables, &guid),
+        };
+        let mut entries = vec![entry("modelDescription.xml", xml)?];
+        match version {
+            FmiVersion::Two => entries.push(entry("model.png", Ok(ICON.to_vec()))?),
+            FmiVersion::Three => {
+                entries.push(entry(terminals::ENTRY, terminals::xml())?);
+                entries.push(entry(terminals::ICON_ENTRY, Ok(ICON.to_vec()))?);
+            }
+        }
+        let page = documentation::html(version, &saved, drive, &variables, &guid);
+        for (name, bytes) in [
+            ("documentation/index.html", page.into_bytes()),
             (
-                "resources/joint.json".to_owned(),
-                joint_json.as_bytes().to_vec(),
+                "documentation/licenses/license.txt",
+                licence::text().into_bytes(),
             ),
-        ];
+            ("resources/joint.json", joint_json.as_bytes().to_vec()),
+        ] {
+            entries.push(entry(name, Ok(bytes))?);
+        }
         entries.extend(
             libraries
                 .iter()
-                .map(|library| (version.entry(library), library.bytes.clone())),
+                .map(|library| (library.entry(version), library.bytes.clone())),
         );
         Ok(Archive { entries })
     }

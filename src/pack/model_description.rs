@@ -1,7 +1,10 @@
-//! modelDescription.xml.
+//! modelDescription.xml of FMI 2.0, and what FMI 3.0 has in common with it.
 
+use super::display_unit::display_unit;
 use super::unit::base_unit;
+use super::{Experiment, FmiVersion, Nominal};
 use crate::joint::{Drive, Joint};
+use crate::saved::{Provenance, SavedJoint};
 use crate::variables::{Causality, MODEL_IDENTIFIER, Variable, Variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -13,37 +16,57 @@ pub(super) type Attributes<'a> = Vec<(&'a str, String)>;
 
 /// The XML of a joint under a drive. Elements and attributes stand in the order of the FMI 2.0
 /// schema; strict importers stop at any other.
-pub fn xml(joint: &Joint, drive: Drive, variables: &Variables, guid: &str) -> Result<Vec<u8>> {
+pub fn xml(saved: &SavedJoint, drive: Drive, variables: &Variables, guid: &str) -> Result<Vec<u8>> {
+    let joint = &saved.joint;
     let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let root = vec![
-        ("fmiVersion", "2.0".to_owned()),
-        ("modelName", MODEL_IDENTIFIER.to_owned()),
-        ("guid", guid.to_owned()),
-        ("description", super::description(joint, drive)),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        (
-            "generationTool",
-            concat!("iwan ", env!("CARGO_PKG_VERSION")).to_owned(),
-        ),
-        ("variableNamingConvention", "structured".to_owned()),
-        ("numberOfEventIndicators", "0".to_owned()),
-    ];
+    let mut root = root(FmiVersion::Two, saved, drive, ("guid", guid));
+    root.push(("numberOfEventIndicators", "0".to_owned()));
     within(&mut writer, "fmiModelDescription", root, |writer| {
         empty(writer, "CoSimulation", capabilities())?;
         units(writer, variables.iter().map(|variable| variable.unit))?;
         log_categories(writer)?;
-        default_experiment(writer)?;
+        default_experiment(writer, &saved.provenance)?;
         within(writer, "ModelVariables", vec![], |writer| {
-            variables
-                .iter()
-                .try_for_each(|variable| scalar_variable(writer, variable, joint))
+            let nominal = Nominal::of(joint);
+            variables.iter().try_for_each(|variable| {
+                let (attributes, real) = of_variable(variable, joint, nominal);
+                within(writer, "ScalarVariable", attributes, |writer| {
+                    empty(writer, "Real", real)
+                })
+            })
         })?;
         structure(writer, variables)
     })?;
     let mut bytes = writer.into_inner();
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// Attributes of the root; what tells one joint from another goes by a name of each version.
+pub(super) fn root<'a>(
+    version: FmiVersion,
+    saved: &SavedJoint,
+    drive: Drive,
+    (token, value): (&'a str, &str),
+) -> Attributes<'a> {
+    let mut root = vec![
+        ("fmiVersion", version.number().to_owned()),
+        ("modelName", MODEL_IDENTIFIER.to_owned()),
+        (token, value.to_owned()),
+        ("description", super::description(&saved.joint, drive)),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("license", env!("CARGO_PKG_LICENSE").to_owned()),
+        (
+            "generationTool",
+            concat!("iwan ", env!("CARGO_PKG_VERSION")).to_owned(),
+        ),
+    ];
+    // Of the joint, not of the export: the same joint gives the same archive.
+    let date = saved.provenance.date.iter();
+    root.extend(date.map(|date| ("generationDateAndTime", date.clone())));
+    root.push(("variableNamingConvention", "structured".to_owned()));
+    root
 }
 
 /// What the library can do; each is tested at its boundary.
@@ -75,9 +98,18 @@ pub(super) fn log_categories(writer: &mut Writer<Vec<u8>>) -> Result<()> {
     })
 }
 
-pub(super) fn default_experiment(writer: &mut Writer<Vec<u8>>) -> Result<()> {
-    let experiment = [("startTime", "0"), ("stopTime", "1"), ("stepSize", "0.001")];
-    empty(writer, "DefaultExperiment", owned(&experiment))
+/// The joint's own measurement, as [`Experiment`] has it.
+pub(super) fn default_experiment(
+    writer: &mut Writer<Vec<u8>>,
+    provenance: &Provenance,
+) -> Result<()> {
+    let experiment = Experiment::of(provenance);
+    let attributes = vec![
+        ("startTime", "0".to_owned()),
+        ("stopTime", format!("{:?}", experiment.stop_time)),
+        ("stepSize", format!("{:?}", experiment.step_size)),
+    ];
+    empty(writer, "DefaultExperiment", attributes)
 }
 
 /// Every unit that is used, once, with its base units.
@@ -100,7 +132,12 @@ pub(super) fn units<'a>(
                 ];
                 let present = exponents.into_iter().filter(|&(_, exponent)| exponent != 0);
                 let attributes = present.map(|(name, exponent)| (name, exponent.to_string()));
-                empty(writer, "BaseUnit", attributes.collect())
+                empty(writer, "BaseUnit", attributes.collect())?;
+                display_unit(unit).map_or(Ok(()), |(name, factor)| {
+                    let attributes =
+                        vec![("name", name.to_owned()), ("factor", format!("{factor:?}"))];
+                    empty(writer, "DisplayUnit", attributes)
+                })
             })?;
         }
         Ok(())
@@ -119,6 +156,7 @@ fn log_category(writer: &mut Writer<Vec<u8>>, name: &str, description: &str) -> 
 pub(super) fn of_variable<'a>(
     variable: &Variable,
     joint: &Joint,
+    nominal: Nominal,
 ) -> (Attributes<'a>, Attributes<'a>) {
     let mut attributes = vec![
         ("name", variable.name.clone()),
@@ -134,19 +172,15 @@ pub(super) fn of_variable<'a>(
     };
     attributes.push(("variability", variability.to_owned()));
     attributes.extend(initial.map(|initial| ("initial", initial.to_owned())));
-    (attributes, numbers(variable, joint))
+    (attributes, numbers(variable, joint, nominal))
 }
 
-fn scalar_variable(writer: &mut Writer<Vec<u8>>, variable: &Variable, joint: &Joint) -> Result<()> {
-    let (attributes, real) = of_variable(variable, joint);
-    within(writer, "ScalarVariable", attributes, |writer| {
-        empty(writer, "Real", real)
-    })
-}
-
-/// Unit, bounds and start value.
-fn numbers<'a>(variable: &Variable, joint: &Joint) -> Attributes<'a> {
+/// Units, bounds, size and start value.
+fn numbers<'a>(variable: &Variable, joint: &Joint, nominal: Nominal) -> Attributes<'a> {
+    let start = variable.start(joint);
     let mut real = owned(&[("unit", variable.unit)]);
+    let shown = display_unit(variable.unit);
+    real.extend(shown.map(|(name, _)| ("displayUnit", name.to_owned())));
     let numbers = [
         (
             "min",
@@ -156,7 +190,8 @@ fn numbers<'a>(variable: &Variable, joint: &Joint) -> Attributes<'a> {
             "max",
             Some(variable.upper).filter(|bound| bound.is_finite()),
         ),
-        ("start", variable.start(joint)),
+        ("nominal", nominal.value(&variable.name, start)),
+        ("start", start),
     ];
     for (name, number) in numbers {
         // `{:?}` is the shortest text that reads back as the same number.

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
-use super::{FORMAT, Provenance, RecordUsed, SavedError, SavedJoint};
+use super::entry::Entry;
+use super::origin::{intervals, provenance};
+use super::{FORMAT, Provenance, SavedError, SavedJoint};
 use crate::causes;
 use crate::joint::{
     Acting, Density, Effect, FourParameter, Joint, Parameter, PowerLaw, PowerLawTable, Sliders,
@@ -174,163 +176,7 @@ fn parameters(entry: &Entry, glossary: &[Parameter]) -> Result<Vec<f64>, SavedEr
     Ok(values)
 }
 
-fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
-    entry.object()?;
-    let words = |name: &str| {
-        entry
-            .find(name)
-            .map(|e| e.text().map(String::from))
-            .transpose()
-    };
-    let mut provenance = Provenance {
-        records: Vec::new(),
-        date: words("date")?,
-        tool: words("tool")?,
-        remark: words("remark")?,
-    };
-    if let Some(records) = entry.find("records") {
-        for record in records.items()? {
-            let samples = record.get("samples", "the count of samples")?;
-            let count = samples
-                .value
-                .as_u64()
-                .and_then(|count| usize::try_from(count).ok());
-            provenance.records.push(RecordUsed {
-                name: record.get("name", "the record's name")?.text()?.into(),
-                samples: count.ok_or_else(|| samples.unusable("a whole number"))?,
-                sha256: record.get("sha256", "the file's hash")?.text()?.into(),
-            });
-        }
-    }
-    Ok(provenance)
-}
-
-fn intervals(entry: &Entry) -> Result<BTreeMap<String, (f64, f64)>, SavedError> {
-    let mut intervals = BTreeMap::new();
-    for name in entry.object()?.keys() {
-        let bounds = entry.get(name, "two bounds")?;
-        let [low, high] = bounds
-            .items()?
-            .try_into()
-            .map_err(|_| bounds.unusable("two bounds"))?;
-        let low = if low.value.is_null() {
-            f64::NEG_INFINITY
-        } else {
-            low.number()?
-        };
-        let high = if high.value.is_null() {
-            f64::INFINITY
-        } else {
-            high.number()?
-        };
-        intervals.insert(name.clone(), (low, high));
-    }
-    Ok(intervals)
-}
-
 fn names(glossary: &[Parameter]) -> String {
     let names: Vec<&str> = glossary.iter().map(|parameter| parameter.name).collect();
     format!("give {}", names.join(", "))
-}
-
-/// A place in the file.
-struct Entry<'a> {
-    file: &'a str,
-    place: String,
-    value: &'a Value,
-}
-
-impl<'a> Entry<'a> {
-    fn find(&self, name: &str) -> Option<Entry<'a>> {
-        let value = self.value.get(name)?;
-        Some(Entry {
-            file: self.file,
-            place: format!("{}.{name}", self.place),
-            value,
-        })
-    }
-
-    fn get(&self, name: &str, needed: &str) -> Result<Entry<'a>, SavedError> {
-        self.object()?;
-        self.find(name).ok_or_else(|| SavedError::Missing {
-            file: self.file.into(),
-            place: format!("{}.{name}", self.place),
-            needed: needed.into(),
-        })
-    }
-
-    fn object(&self) -> Result<&'a Map<String, Value>, SavedError> {
-        self.value
-            .as_object()
-            .ok_or_else(|| self.unusable("it must be an object { … }"))
-    }
-
-    /// Refuses names that nothing reads: a misspelt parameter must not pass for its default.
-    fn only(&self, known: &[&str]) -> Result<(), SavedError> {
-        match self
-            .object()?
-            .keys()
-            .find(|name| !known.contains(&name.as_str()))
-        {
-            Some(stranger) => {
-                let entry = self.get(stranger, "")?;
-                Err(entry.unusable(&format!(
-                    "no such name here; known are {}",
-                    known.join(", ")
-                )))
-            }
-            None => Ok(()),
-        }
-    }
-
-    fn items(&self) -> Result<Vec<Entry<'a>>, SavedError> {
-        let list = self
-            .value
-            .as_array()
-            .ok_or_else(|| self.unusable("it must be a list [ … ]"))?;
-        let entries = list.iter().enumerate().map(|(i, value)| Entry {
-            file: self.file,
-            place: format!("{}[{i}]", self.place),
-            value,
-        });
-        Ok(entries.collect())
-    }
-
-    fn text(&self) -> Result<&'a str, SavedError> {
-        self.value
-            .as_str()
-            .ok_or_else(|| self.unusable("it must be a text in quotes"))
-    }
-
-    fn number(&self) -> Result<f64, SavedError> {
-        self.value
-            .as_f64()
-            .ok_or_else(|| self.unusable("it must be a number"))
-    }
-
-    fn numbers(&self) -> Result<Vec<f64>, SavedError> {
-        self.items()?.iter().map(Entry::number).collect()
-    }
-
-    fn unusable(&self, needed: &str) -> SavedError {
-        let mut value: String = self.value.to_string().chars().take(60).collect();
-        if value.chars().count() == 60 {
-            value.push('…');
-        }
-        let (file, place) = (self.file.into(), self.place.clone());
-        SavedError::Unusable {
-            file,
-            place,
-            value,
-            needed: needed.into(),
-        }
-    }
-
-    fn no_joint(&self, reason: crate::joint::JointError) -> SavedError {
-        SavedError::NoJoint {
-            file: self.file.into(),
-            place: self.place.clone(),
-            reason,
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{FORMAT, Provenance, SavedJoint};
+use super::{FORMAT, Judgement, Provenance, RecordUsed, SavedJoint};
 use crate::joint::{Acting, Density};
 
 /// The text of a joint.json, entries in the order of [`super`]'s picture, lists of numbers in one
@@ -61,11 +61,7 @@ fn cause(acting: &Acting) -> Value {
 }
 
 fn provenance(provenance: &Provenance) -> Value {
-    let records: Vec<Value> = provenance
-        .records
-        .iter()
-        .map(|r| json!({"name": r.name, "samples": r.samples, "sha256": r.sha256}))
-        .collect();
+    let records: Vec<Value> = provenance.records.iter().map(record).collect();
     let mut entry = Map::new();
     entry.insert("records".into(), Value::Array(records));
     let words = [
@@ -78,7 +74,28 @@ fn provenance(provenance: &Provenance) -> Value {
             entry.insert(name.into(), json!(text));
         }
     }
+    if let Some(verdict) = &provenance.verdict {
+        entry.insert("verdict".into(), judgement(verdict));
+    }
     Value::Object(entry)
+}
+
+fn record(used: &RecordUsed) -> Value {
+    let mut entry = json!({"name": used.name, "samples": used.samples, "sha256": used.sha256});
+    if let Some(span) = used.span {
+        entry["duration"] = number(span.duration);
+        entry["sample_interval"] = number(span.sample_interval);
+    }
+    entry
+}
+
+fn judgement(verdict: &Judgement) -> Value {
+    let ratio = verdict.held_out_rms_ratio.map_or(Value::Null, number);
+    let mut entry = json!({"word": verdict.word, "held_out_rms_ratio": ratio});
+    if let Some((low, high)) = verdict.interval {
+        entry["interval"] = json!([number(low), number(high)]);
+    }
+    entry
 }
 
 /// JSON has no infinity: null stands for it.

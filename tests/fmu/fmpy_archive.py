@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import fmpy
+from lxml import etree
 
 ROOT = Path(__file__).resolve().parents[2]
 FUNCTIONS = {
@@ -47,7 +48,14 @@ FUNCTIONS = {
     "fmi2GetStringStatus",
 }
 HEADER_OF_FMI_3 = Path(fmpy.__file__).parent / "c-code" / "fmi3FunctionTypes.h"
-PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
+PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib", "aarch64-linux": "so"}
+ENTRIES = {
+    "modelDescription.xml",
+    "model.png",
+    "resources/joint.json",
+    "documentation/index.html",
+    "documentation/licenses/license.txt",
+}
 ORDER = [
     "CoSimulation",
     "UnitDefinitions",
@@ -70,12 +78,12 @@ def reals(root: ElementTree.Element) -> list[tuple[dict, dict]]:
     return [(variable.attrib, variable.find("Real").attrib) for variable in variables]
 
 
-def entries_are_deflated_and_in_place(archive: Path) -> None:
+def entries_are_deflated_and_in_place(archive: Path, expected: set[str] = ENTRIES) -> None:
     with zipfile.ZipFile(archive) as content:
         infos = content.infolist()
     names = {info.filename for info in infos}
     assert len(names) == len(infos), "an entry stands twice"
-    assert {"modelDescription.xml", "resources/joint.json", "documentation/index.html"} <= names
+    assert names >= expected, expected - names
     assert all(info.compress_type == zipfile.ZIP_DEFLATED for info in infos)
 
 
@@ -90,14 +98,18 @@ def binaries_are_named_after_the_identifier(archive: Path) -> None:
         assert file == f"{identifier}.{PLATFORMS[platform]}", name
 
 
+def functions_of_fmi_3() -> set[str]:
+    """Names in the standard's header, which has a type `…TYPE` for each function."""
+    return set(re.findall(r"\b(fmi3\w+)TYPE\b", HEADER_OF_FMI_3.read_text()))
+
+
 def exactly_the_fmi_functions_are_exported(archive: Path) -> None:
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(archive) as content:
         library = content.extract("binaries/linux64/IwanJoint.so", folder)
         command = ["nm", "-D", "--defined-only", library]
         listing = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     symbols = {line.split()[-1] for line in listing.splitlines()}
-    # The header has a type `…TYPE` for each function.
-    third = set(re.findall(r"\b(fmi3\w+)TYPE\b", HEADER_OF_FMI_3.read_text()))
+    third = functions_of_fmi_3()
     assert len(third) == 75, third
     assert symbols == FUNCTIONS | third, symbols ^ (FUNCTIONS | third)
 
@@ -152,6 +164,70 @@ def units_are_defined_with_base_units(archive: Path) -> None:
         assert defined[real["unit"]].find("BaseUnit") is not None, variable
 
 
+def shown_units_are_defined_and_scale(archive: Path) -> None:
+    root = read(archive)
+    scales = {
+        (unit.get("name"), shown.get("name")): float(shown.get("factor"))
+        for unit in root.findall("UnitDefinitions/Unit")
+        for shown in unit.findall("DisplayUnit")
+    }
+    used = {(r["unit"], r["displayUnit"]) for _, r in reals(root) if "displayUnit" in r}
+    assert used == set(scales), used ^ set(scales)
+    prefixes = {("m", "um"): 1e6, ("N", "kN"): 1e-3, ("N/m", "kN/mm"): 1e-6, ("J", "mJ"): 1e3}
+    for pair, factor in prefixes.items():
+        assert scales[pair] == factor, pair
+
+
+def nominal_values_are_sizes(archive: Path) -> None:
+    nominal = {v["name"]: float(r["nominal"]) for v, r in reals(read(archive)) if "nominal" in r}
+    signals = {"force", "displacement", "dissipation", "stored_energy", "tangent_stiffness"}
+    assert nominal.keys() >= signals
+    assert all(value > 0.0 for value in nominal.values())
+    # a force softens the joint: it goes further than its first tangent says, and not tenfold
+    linear = nominal["force"] / nominal["tangent_stiffness"]
+    assert linear <= nominal["displacement"] < 10.0 * linear, nominal
+
+
+def the_icon_is_a_picture(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as content:
+        head = content.read("model.png")[:24]
+    assert head.startswith(b"\x89PNG\r\n\x1a\n")
+    width, height = (int.from_bytes(head[i : i + 4], "big") for i in (16, 20))
+    assert width == height == 128
+
+
+def the_page_is_well_formed_and_tells_the_parameters(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as content:
+        page = content.read("documentation/index.html").decode()
+        licence = content.read("documentation/licenses/license.txt").decode()
+    stack = []
+    for close, tag in re.findall(r"<(/?)(\w+)[^>]*>", page.removeprefix("<!DOCTYPE html>")):
+        if close:
+            assert stack.pop() == tag, f"</{tag}> closes another element"
+        elif tag != "meta":
+            stack.append(tag)
+    assert not stack, stack
+    for variable, _ in reals(read(archive)):
+        assert f"<code>{variable['name']}</code>" in page, variable
+    assert "Apache License" in licence
+    assert "Permission is hereby granted" in licence
+
+
+def the_xml_is_valid_by_the_schema(archive: Path) -> list[str]:
+    """The entries that were held against the schema of the archive's version."""
+    folder = Path(fmpy.__file__).parent / "schema"
+    version = "fmi3" if read(archive).get("fmiVersion").startswith("3") else "fmi2"
+    checked = [("modelDescription.xml", "ModelDescription")]
+    with zipfile.ZipFile(archive) as content:
+        terminals = "terminalsAndIcons/terminalsAndIcons.xml"
+        if terminals in content.namelist():
+            checked.append((terminals, "TerminalsAndIcons"))
+        for entry, kind in checked:
+            schema = etree.XMLSchema(file=str(folder / version / f"{version}{kind}.xsd"))
+            schema.assertValid(etree.fromstring(content.read(entry)))
+    return [entry for entry, _ in checked]
+
+
 def experiment_runs_forward(archive: Path) -> None:
     experiment = read(archive).find("DefaultExperiment").attrib
     assert float(experiment["startTime"]) < float(experiment["stopTime"])
@@ -187,6 +263,11 @@ CHECKS = [
     names_and_references_are_unique,
     references_are_those_of_the_tables,
     units_are_defined_with_base_units,
+    shown_units_are_defined_and_scale,
+    nominal_values_are_sizes,
+    the_icon_is_a_picture,
+    the_page_is_well_formed_and_tells_the_parameters,
+    the_xml_is_valid_by_the_schema,
     experiment_runs_forward,
     structure_names_every_output,
     guid_is_written_in_full,

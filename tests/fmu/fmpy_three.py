@@ -2,7 +2,10 @@
 
 import ctypes
 import math
+import re
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy_archive
 import numpy as np
@@ -11,6 +14,27 @@ from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 from fmpy_simulation import COLUMNS, Unit, close, columns
 
+ENTRIES = {
+    "modelDescription.xml",
+    "terminalsAndIcons/terminalsAndIcons.xml",
+    "terminalsAndIcons/icon.png",
+    "resources/joint.json",
+    "documentation/index.html",
+    "documentation/licenses/license.txt",
+    "binaries/x86_64-linux/IwanJoint.so",
+}
+KEYS = [
+    "valueReference",
+    "causality",
+    "variability",
+    "initial",
+    "start",
+    "unit",
+    "displayUnit",
+    "min",
+    "max",
+    "nominal",
+]
 LOCALS = ["slip_displacement", "tangent_stiffness", "dissipation_rate"]
 
 
@@ -81,6 +105,32 @@ def fmpy_finds_no_fault(pair: Pair) -> None:
     assert problems == [], problems
 
 
+def entries_stand_where_fmi_3_has_them(pair: Pair) -> None:
+    fmpy_archive.entries_are_deflated_and_in_place(pair.archive, ENTRIES)
+    with zipfile.ZipFile(pair.archive) as content, zipfile.ZipFile(pair.two.archive) as two:
+        assert "model.png" not in content.namelist(), "an icon where FMI 2.0 has it"
+        assert content.read("terminalsAndIcons/icon.png") == two.read("model.png")
+        page = content.read("documentation/index.html").decode()
+    for function in re.findall(r"fmi\d\w+", page):
+        assert function in fmpy_archive.functions_of_fmi_3(), function
+    assert "fmi3GetAdjointDerivative" in page
+
+
+def xml_and_terminals_are_valid_by_the_schema(pair: Pair) -> None:
+    checked = fmpy_archive.the_xml_is_valid_by_the_schema(pair.archive)
+    assert checked == ["modelDescription.xml", "terminalsAndIcons/terminalsAndIcons.xml"], checked
+
+
+def the_terminal_joins_input_and_answer(pair: Pair) -> None:
+    with zipfile.ZipFile(pair.archive) as content:
+        root = ElementTree.fromstring(content.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    (terminal,) = root.findall("Terminals/Terminal")
+    members = terminal.findall("TerminalMemberVariable")
+    named = {m.get("variableKind"): pair.variables[m.get("variableName")] for m in members}
+    assert {kind: v.unit for kind, v in named.items()} == {"signal": "m", "inflow": "N"}
+    assert {v.causality for v in named.values()} == {"input", "output"}
+
+
 def both_versions_give_the_same(pair: Pair) -> None:
     load = pair.two.load()
     with pair.two.open() as slave:
@@ -114,10 +164,18 @@ def simulate_fmu_gives_what_fmi_2_gives(pair: Pair) -> None:
 def variables_are_those_of_fmi_2_and_time(pair: Pair) -> None:
     for name, variable in pair.two.variables.items():
         here = pair.variables[name]
-        for key in ("valueReference", "causality", "variability", "initial", "start", "unit"):
+        for key in KEYS:
             assert getattr(here, key) == getattr(variable, key), (name, key)
     assert set(pair.variables) - set(pair.two.variables) == {"time"}
     assert pair.variables["time"].causality == "independent"
+    two, three = (fmpy_archive.read(archive) for archive in (pair.two.archive, pair.archive))
+    assert three.get("license") == two.get("license")
+    assert three.get("generationDateAndTime") == two.get("generationDateAndTime")
+    experiments = [root.find("DefaultExperiment").attrib for root in (two, three)]
+    assert experiments[0] == experiments[1]
+    shown = [root.findall("UnitDefinitions/Unit/DisplayUnit") for root in (two, three)]
+    factors = [{unit.get("name"): unit.get("factor") for unit in units} for units in shown]
+    assert factors[0].items() <= factors[1].items(), factors
 
 
 def start_values_of_the_xml_are_those_of_the_library(pair: Pair) -> None:
@@ -230,6 +288,9 @@ def capabilities_are_declared_as_they_are(pair: Pair) -> None:
 
 CHECKS = [
     fmpy_finds_no_fault,
+    entries_stand_where_fmi_3_has_them,
+    xml_and_terminals_are_valid_by_the_schema,
+    the_terminal_joins_input_and_answer,
     both_versions_give_the_same,
     simulate_fmu_gives_what_fmi_2_gives,
     variables_are_those_of_fmi_2_and_time,

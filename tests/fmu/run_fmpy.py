@@ -37,7 +37,13 @@ BOLT = {
 CAUSES = [
     {
         "name": "pinning",
-        "parameters": {"stiffness": 2e6, "gap_positive": 1e-5, "gap_negative": 2e-5, "rounding": 0, "stiffness_ratio": 1},
+        "parameters": {
+            "stiffness": 2e6,
+            "gap_positive": 1e-5,
+            "gap_negative": 2e-5,
+            "rounding": 0,
+            "stiffness_ratio": 1,
+        },
     },
     {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
 ]

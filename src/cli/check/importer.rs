@@ -1,6 +1,8 @@
 //! An archive behind the `fmi` crate's importer.
 
 use super::load::Load;
+use super::measured::Measured;
+use super::validation::{Validation, validate};
 use super::verdict::{Difference, Verdict};
 use crate::cli::BadInput;
 use crate::joint::{Drive, Joint, Output, Simulation};
@@ -19,6 +21,7 @@ pub struct Archive {
     shown: String,
     joint: Joint,
     drive: Drive,
+    validation: Validation,
     input: Variable,
     answers: Vec<(Signal, Variable)>,
 }
@@ -40,7 +43,9 @@ impl Archive {
         let drive = drive_of(&text, &import.model_description().guid).ok_or_else(|| {
             refuse("the GUID in modelDescription.xml is not that of resources/joint.json".into())
         })?;
-        let signals = Variables::of(&joint, drive)?.signals;
+        let variables = Variables::of(&joint, drive)?;
+        let validation = validate(path, &joint, &variables);
+        let signals = variables.signals;
         let mut answers = Vec::new();
         let mut input = None;
         for variable in signals {
@@ -56,9 +61,25 @@ impl Archive {
             shown,
             joint,
             drive,
+            validation,
             input,
             answers,
         })
+    }
+
+    /// What the archive says of itself, held against its joint.
+    pub fn validation(&self) -> &Validation {
+        &self.validation
+    }
+
+    /// The communication step \[s\] that importers take by default, where the archive names one.
+    pub fn default_step(&self) -> Option<f64> {
+        let experiment = self
+            .import
+            .model_description()
+            .default_experiment
+            .as_ref()?;
+        experiment.step_size.filter(|step| *step > 0.0)
     }
 
     /// The joint that the archive carries.
@@ -101,6 +122,7 @@ impl Archive {
         let again = self.second_half(&mut unit, load, half)?;
         let state_continues = first == again;
         rows.extend(first);
+        let measured = Measured::of(load, self.drive, &expected);
         let differences = self
             .answers
             .iter()
@@ -118,6 +140,9 @@ impl Archive {
             },
             differences: differences.collect(),
             state_continues,
+            measured,
+            steps: None,
+            validation: self.validation.clone(),
         })
     }
 

@@ -1,7 +1,8 @@
 //! The load under which an archive is compared.
 
 use crate::cli::input::{Foreign, tell_notes};
-use crate::joint::{Drive, Joint, JointError, Simulation, VirginCurve};
+use crate::joint::{Drive, Joint, JointError, Simulation};
+use crate::pack::Nominal;
 use crate::read::{self, Quantity};
 use std::path::Path;
 
@@ -12,6 +13,8 @@ pub struct Load {
     pub time: Vec<f64>,
     /// Force \[N\] or displacement \[m\], by the drive.
     pub input: Vec<f64>,
+    /// The other quantity as it was measured, where the file has it.
+    pub answer: Option<Vec<f64>>,
 }
 
 /// Samples of the load that is made, and its length in seconds.
@@ -28,14 +31,16 @@ impl Load {
     pub fn read(file: &Path, foreign: &Foreign, drive: Drive) -> anyhow::Result<Load> {
         let table = read::load_table(file, &foreign.options()?)?;
         tell_notes(file, &table.notes);
-        let (quantity, input) = match drive {
-            Drive::Force => (Quantity::Force, &table.force),
-            Drive::Displacement => (Quantity::Displacement, &table.displacement),
+        let (quantity, input, answer) = match drive {
+            Drive::Force => (Quantity::Force, &table.force, &table.displacement),
+            Drive::Displacement => (Quantity::Displacement, &table.displacement, &table.force),
         };
+        let answer = answer.clone();
         let input = input.clone().ok_or_else(|| table.missing(quantity))?;
         Ok(Load {
             time: table.time,
             input,
+            answer,
         })
     }
 
@@ -45,11 +50,10 @@ impl Load {
     /// # Errors
     /// What the joint says to the smallest load.
     pub fn made_for(joint: &Joint, drive: Drive) -> anyhow::Result<Load> {
-        let slip = softened(joint);
-        let force = joint.density.force(slip);
+        let nominal = Nominal::of(joint);
         let mut size = match drive {
-            Drive::Force => force,
-            Drive::Displacement => slip + force / joint.series_stiffness,
+            Drive::Force => nominal.force,
+            Drive::Displacement => nominal.displacement,
         };
         let mut refused = Ok(());
         for _ in 0..HALVINGS {
@@ -74,6 +78,7 @@ impl Load {
         Load {
             input: input.collect(),
             time,
+            answer: None,
         }
     }
 
@@ -82,15 +87,4 @@ impl Load {
         let mut rows = self.time.iter().zip(&self.input);
         rows.try_for_each(|(time, input)| simulation.step(*time, *input).map(|_| ()))
     }
-}
-
-/// Slip \[m\] at which the network has lost a fifth of its stiffness, to a factor of two; a joint
-/// that never softens gets one metre.
-fn softened(joint: &Joint) -> f64 {
-    let wanted = 0.8 * joint.density.initial_stiffness();
-    let slips = std::iter::successors(Some(1e-15), |slip| Some(slip * 2.0));
-    let mut slips = slips.take_while(|slip| *slip < 1.0);
-    slips
-        .find(|slip| joint.density.stiffness(*slip) <= wanted)
-        .unwrap_or(1.0)
 }

@@ -1,6 +1,9 @@
 //! What a comparison found, as text and as JSON.
 
-use serde_json::json;
+use super::measured::Measured;
+use super::steps::{Steps, TOO_COARSE};
+use super::validation::Validation;
+use serde_json::{Value, json};
 
 /// Largest admissible difference, relative to the largest value of the same signal: the archive
 /// holds the same code, and what differs is how a compiler orders a sum.
@@ -41,6 +44,12 @@ pub struct Verdict {
     pub differences: Vec<Difference>,
     /// True where a state saved halfway, serialized and put back gave the same end to the bit.
     pub state_continues: bool,
+    /// The record's answer beside the joint's, where there is one.
+    pub measured: Option<Measured>,
+    /// What the record asks of the importer's step, where there is a record.
+    pub steps: Option<Steps>,
+    /// What the archive says of itself.
+    pub validation: Validation,
 }
 
 impl Verdict {
@@ -57,8 +66,20 @@ impl Verdict {
     /// For reading.
     pub fn text(&self, archive: &str) -> String {
         let mut text = format!(
-            "{archive}: driven in {}, {} samples\n\n{:<24}{:>14}{:>14}{:>12}\n",
-            self.input, self.samples, "", "largest value", "difference", "relative"
+            "{archive}: driven in {}, {} samples; libraries for {}\n",
+            self.input,
+            self.samples,
+            self.validation.platforms.join(", ")
+        );
+        for fault in &self.validation.faults {
+            text += &format!("FAULT: {fault}\n");
+        }
+        for note in &self.validation.notes {
+            text += &format!("note: {note}\n");
+        }
+        text += &format!(
+            "\n{:<24}{:>14}{:>14}{:>12}\n",
+            "", "largest value", "difference", "relative"
         );
         for difference in &self.differences {
             let name = format!("{} [{}]", difference.name, difference.unit);
@@ -74,10 +95,16 @@ impl Verdict {
         } else {
             "does NOT continue"
         };
-        text + &format!(
+        text += &format!(
             "\nA saved state {state}.\nThe archive {} with its joint.\n",
             self.word()
-        )
+        );
+        text += &self
+            .measured
+            .as_ref()
+            .map(measured_text)
+            .unwrap_or_default();
+        text + &self.steps.as_ref().map(steps_text).unwrap_or_default()
     }
 
     /// For programs.
@@ -92,11 +119,113 @@ impl Verdict {
                 })
             })
             .collect();
+        let validation = &self.validation;
         let whole = json!({
             "format": "iwan-check/1", "archive": archive, "input": self.input,
             "samples": self.samples, "differences": differences, "tolerance": TOLERANCE,
             "state_continues": self.state_continues, "verdict": self.word(),
+            "platforms": validation.platforms, "faults": validation.faults,
+            "notes": validation.notes,
+            "measured": self.measured.as_ref().map(measured_json),
+            "steps": self.steps.as_ref().map(steps_json),
         });
         format!("{whole:#}\n")
     }
+}
+
+fn measured_text(measured: &Measured) -> String {
+    let Measured {
+        name,
+        unit,
+        offset,
+        rms,
+        largest,
+        swing,
+        work,
+    } = measured;
+    format!(
+        "\nBeside the record, {name} measured minus simulated: {rms:.3e} {unit} rms, {:.2} % of \
+         the measured;\nlargest {largest:.3e} {unit}; the sensor's zero of {offset:.3e} {unit} \
+         taken out.\nWork over the record: measured {:.6e} J, simulated {:.6e} J ({:+.2} %).\n",
+        100.0 * rms / swing,
+        work.0,
+        work.1,
+        100.0 * (work.1 / work.0 - 1.0)
+    )
+}
+
+fn measured_json(measured: &Measured) -> Value {
+    json!({
+        "name": measured.name, "unit": measured.unit, "offset": measured.offset,
+        "rms": measured.rms, "largest": measured.largest, "swing": measured.swing,
+        "work_measured": measured.work.0, "work_simulated": measured.work.1,
+    })
+}
+
+fn steps_text(steps: &Steps) -> String {
+    let mut text = match steps.shortest_cycle {
+        Some(cycle) => format!("\nThe record's shortest cycle lasts {cycle:.6} s.\n"),
+        None => "\nThe record holds no whole cycle.\n".to_owned(),
+    };
+    text += &format!(
+        "{:>14}{:>14}{:>18}{:>12}\n",
+        "step [s]", "per cycle", "dissipation [J]", "lost"
+    );
+    for effect in &steps.effects {
+        text += &format!(
+            "{:>14.6e}{:>14.1}{:>18.6e}{:>10.3} %  {}\n",
+            effect.step,
+            effect.per_cycle,
+            effect.dissipation,
+            100.0 * effect.lost,
+            effect.origin
+        );
+    }
+    let judged = &steps.judged;
+    let limit = 100.0 * TOO_COARSE;
+    if steps.too_coarse() {
+        text += &format!(
+            "A step of {:.6e} s ({}) is TOO COARSE for this record: {:.2} % of the dissipation is \
+             lost.\n",
+            judged.step,
+            judged.origin,
+            100.0 * judged.lost
+        );
+        text += &match steps.advised {
+            Some(step) => format!("Take {step:.6e} s or less: at most {limit} % is lost.\n"),
+            None => format!("No step tried loses less than {limit} %: sample the load finer.\n"),
+        };
+    } else {
+        text += &format!(
+            "A step of {:.6e} s ({}) is fine enough: {:.2} % of the dissipation is lost, at most \
+             {limit} % is let pass.\n",
+            judged.step,
+            judged.origin,
+            100.0 * judged.lost
+        );
+    }
+    if steps.record_too_coarse() {
+        text += "The record itself has so few samples per cycle that its turning values, and with \
+                 them these shares, are a guess.\n";
+    }
+    text
+}
+
+fn steps_json(steps: &Steps) -> Value {
+    let effects: Vec<_> = steps
+        .effects
+        .iter()
+        .map(|effect| {
+            json!({
+                "step": effect.step, "origin": effect.origin, "per_cycle": effect.per_cycle,
+                "dissipation": effect.dissipation, "lost": effect.lost,
+            })
+        })
+        .collect();
+    json!({
+        "shortest_cycle": steps.shortest_cycle, "reference_dissipation": steps.reference,
+        "judged_step": steps.judged.step, "lost": steps.judged.lost,
+        "too_coarse": steps.too_coarse(), "advised_step": steps.advised,
+        "record_too_coarse": steps.record_too_coarse(), "effects": effects,
+    })
 }

@@ -78,7 +78,7 @@ pub fn parameters(shown: Shown, size: f64, stiffness: f64) -> Vec<f64> {
     match shown {
         Shown::Viscous | Shown::Quadratic => vec![size],
         Shown::Cubic => vec![-size / stiffness.powi(4)],
-        Shown::Pinning { gap } => vec![size, gap, gap],
+        Shown::Pinning { gap } => vec![size, gap, gap, 0.0, 1.0],
     }
 }
 

@@ -1,0 +1,269 @@
+#!/usr/bin/env bash
+# The FMU's library for every platform, each run and compared where it can be run, and one archive
+# that holds them all.
+#
+#   scripts/build-platforms.sh [--install] [--joint JOINT.json] [--output JOINT.fmu] [PLATFORM…]
+#
+#   PLATFORM    linux64 (glibc 2.17 or newer), win64, aarch64-linux; by default all three
+#   --install   fetch the system's missing packages with apt-get (Debian and its kin, as root)
+#   --joint     the joint of the archive; by default the one of scripts/platforms
+#   --output    the archive; by default target/platforms/joint.fmu
+#
+# Libraries go to target/platforms/PLATFORM/. What cannot be built or run on this machine is said
+# in the table at the end and left out of the archive; a platform asked for by name must be built.
+# Exit status 0: everything that was tried succeeded; 1: a build failed or a platform answers
+# differently; 2: usage, or a named platform lacks its tools.
+#
+# Rust's standard library for a platform comes from rustup; where rustup can fetch nothing, Debian's
+# packages of the compiler and its sources are unpacked into target/platforms and the standard
+# library is built with it.
+set -euo pipefail
+
+install=no
+joint=
+output=
+asked=()
+while [ $# -gt 0 ]; do
+    case "$1" in
+    --install) install=yes ;;
+    --joint | --output)
+        [ $# -ge 2 ] || { echo "build-platforms: $1 needs a file" >&2; exit 2; }
+        [ "$1" = --joint ] && joint=$(realpath "$2") || output=$(realpath -m "$2")
+        shift
+        ;;
+    linux64 | win64 | aarch64-linux) asked+=("$1") ;;
+    *)
+        echo "usage: scripts/build-platforms.sh [--install] [--joint FILE] [--output FILE] [linux64|win64|aarch64-linux]…" >&2
+        exit 2
+        ;;
+    esac
+    shift
+done
+
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+cd "$REPOSITORY"
+tools="$REPOSITORY/scripts/platforms"
+out="$REPOSITORY/target/platforms"
+joint=${joint:-"$tools/joint.json"}
+output=${output:-"$out/joint.fmu"}
+mkdir -p "$out"
+[ "$(uname -s)-$(uname -m)" = Linux-x86_64 ] ||
+    stop "written for Linux on x86-64; elsewhere: cargo rustc --release --lib --crate-type cdylib --no-default-features --target TRIPLE, then iwan export --binary PLATFORM=FILE"
+
+declare -A triple=(
+    [linux64]=x86_64-unknown-linux-gnu
+    [win64]=x86_64-pc-windows-gnu
+    [aarch64-linux]=aarch64-unknown-linux-gnu
+)
+declare -A built_as=([linux64]=libiwan.so [win64]=iwan.dll [aarch64-linux]=libiwan.so)
+declare -A packed_as=([linux64]=IwanJoint.so [win64]=IwanJoint.dll [aarch64-linux]=IwanJoint.so)
+declare -A built ran
+
+have() { command -v "$1" >/dev/null; }
+
+# Debian puts wine64 beside the path where its package `wine` is not installed too.
+wine64_program() {
+    command -v wine64 || { [ -x /usr/lib/wine/wine64 ] && echo /usr/lib/wine/wine64; }
+}
+
+# Packages that a platform still lacks, by Debian's names; nothing where all is there.
+lacks() {
+    case "$1" in
+    win64)
+        have x86_64-w64-mingw32-gcc || echo gcc-mingw-w64-x86-64-win32
+        wine64_program >/dev/null || echo wine64
+        ;;
+    aarch64-linux)
+        have qemu-aarch64 || echo qemu-user
+        [ -e /usr/aarch64-linux-gnu/lib/ld-linux-aarch64.so.1 ] || echo libc6-arm64-cross
+        ;;
+    esac
+}
+
+fetch_packages() {
+    local missing=()
+    local platform
+    for platform in "$@"; do
+        # shellcheck disable=SC2207 # names of packages have no spaces
+        missing+=($(lacks "$platform"))
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    if [ "$install" = no ]; then
+        say "not on this machine: ${missing[*]} (--install fetches them with apt-get)"
+        return 0
+    fi
+    have apt-get || stop "--install needs apt-get"
+    say "apt-get install ${missing[*]}"
+    { apt-get update && apt-get install -y --no-install-recommends "${missing[@]}"; } \
+        >"$out/apt.log" 2>&1 || say "apt-get failed, see target/platforms/apt.log"
+}
+
+# zig links against an old glibc and for ARM; from PyPI, in an environment of its own.
+prepare_zig() {
+    zig="$out/zig"
+    [ -x "$zig/bin/cargo-zigbuild" ] && return 0
+    say "fetching zig (about 100 MB)"
+    python3 -m venv "$zig" &&
+        "$zig/bin/python" -m pip install --quiet --disable-pip-version-check \
+            --requirement "$tools/requirements.txt" >&2
+}
+
+# Debian's compiler of one version with the sources of its standard library, unpacked, not installed.
+prepare_sources() {
+    compiler="$out/rustc"
+    [ -x "$compiler" ] && "$compiler" --version >/dev/null 2>&1 && return 0
+    have apt-get && have dpkg || return 1
+    say "unpacking Debian's rustc-web and rust-web-src (about 120 MB)"
+    local root="$out/debian" version
+    mkdir -p "$root"
+    apt-get update >"$out/apt.log" 2>&1 || true
+    version=$(apt-cache depends rustc-web libstd-rust-web-dev 2>/dev/null |
+        sed -n 's/.*Depends: \(libstd-rust-web-[0-9.]*\)$/\1/p' | head -1)
+    [ -n "$version" ] || return 1
+    local llvm
+    llvm=$(apt-cache depends "$version" | sed -n 's/.*Depends: \(libllvm[0-9]*\)$/\1/p' | head -1)
+    (
+        cd "$root"
+        rm -f -- *.deb
+        apt-get download rustc-web libstd-rust-web-dev rust-web-src "$version" "$llvm" >>"$out/apt.log" 2>&1
+        for package in *.deb; do dpkg -x "$package" .; done
+        rm -f -- *.deb
+    ) || return 1
+    cat >"$compiler" <<END
+#!/bin/sh
+root=\$(dirname "\$0")/debian
+export LD_LIBRARY_PATH="\$root/usr/lib/x86_64-linux-gnu:\$root/usr/lib/llvm-${llvm#libllvm}/lib"
+exec "\$root/usr/bin/rustc" "\$@"
+END
+    chmod +x "$compiler"
+    "$compiler" --version >&2
+}
+
+# Sets `standard` to what cargo needs for the platform's standard library.
+standard_library() {
+    local target=${triple[$1]}
+    standard=()
+    unset RUSTC RUSTC_BOOTSTRAP
+    [ "${IWAN_STANDARD_LIBRARY:-rustup}" = sources ] || {
+        [ -d "$(rustc --print target-libdir --target "$target" 2>/dev/null)" ] && return 0
+        have rustup && rustup target add "$target" >"$out/rustup.log" 2>&1 && return 0
+    }
+    prepare_sources || return 1
+    export RUSTC="$compiler" RUSTC_BOOTSTRAP=1
+    standard=(-Zbuild-std=std,panic_unwind)
+}
+
+# One platform's library. Link-time optimisation over everything drops what the standard library
+# imports and the joint never calls: on Windows bcryptprimitives.dll, which older systems lack.
+build_platform() {
+    local platform=$1 target=${triple[$1]} command=(cargo rustc) linker_target
+    standard_library "$platform" || { built[$platform]="no: no standard library for $target"; return 1; }
+    linker_target=$target
+    if [ "$platform" = win64 ]; then
+        have x86_64-w64-mingw32-gcc || { built[$platform]="no: mingw-w64 is missing"; return 1; }
+        export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER=x86_64-w64-mingw32-gcc
+    else
+        prepare_zig || { built[$platform]="no: zig could not be fetched"; return 1; }
+        command=("$zig/bin/cargo-zigbuild" rustc)
+        linker_target=$target.2.17
+    fi
+    say "building $platform"
+    # No path of this machine may stay in what is shipped.
+    local separator=$'\x1f' sysroot
+    sysroot=$("${RUSTC:-rustc}" --print sysroot)
+    if ! PATH="${zig:+$zig/bin:}$PATH" CARGO_PROFILE_RELEASE_LTO=fat CARGO_PROFILE_RELEASE_CODEGEN_UNITS=1 \
+        CARGO_PROFILE_RELEASE_STRIP=symbols CARGO_TARGET_DIR="$out/build" \
+        CARGO_ENCODED_RUSTFLAGS="--remap-path-prefix=$REPOSITORY=iwan${separator}--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo${separator}--remap-path-prefix=$sysroot=rust" \
+        "${command[@]}" --locked ${standard[@]+"${standard[@]}"} --target "$linker_target" --release --lib \
+        --crate-type cdylib --no-default-features >"$out/$platform.log" 2>&1; then
+        tail -5 "$out/$platform.log" >&2
+        built[$platform]="FAILED, see target/platforms/$platform.log"
+        return 1
+    fi
+    mkdir -p "$out/$platform"
+    cp "$out/build/$target/release/${built_as[$platform]}" "$out/$platform/${packed_as[$platform]}"
+    built[$platform]=$("$PYTHON" "$tools/library.py" "$platform" "$out/$platform/${packed_as[$platform]}") ||
+        { built[$platform]="FAILED: ${built[$platform]}"; return 1; }
+}
+
+# The host of a platform, run on its library; answers go to target/platforms/PLATFORM.txt.
+run_platform() {
+    local platform=$1 host="$out/host-$1" library="$out/$1/${packed_as[$1]}" runner=() resources="$out/resources"
+    case "$platform" in
+    linux64)
+        cc -O1 -o "$host" "$tools/host.c" -ldl
+        ;;
+    win64)
+        runner=("$(wine64_program)") || { ran[$platform]="not run here: wine64 is missing"; return 0; }
+        host="$host.exe"
+        x86_64-w64-mingw32-gcc -O1 -o "$host" "$tools/host.c"
+        export WINEPREFIX="$out/wine" WINEDEBUG=-all DISPLAY=
+        resources="Z:$resources"
+        library="Z:$library"
+        ;;
+    aarch64-linux)
+        have qemu-aarch64 || { ran[$platform]="not run here: qemu-user is missing"; return 0; }
+        [ -e /usr/aarch64-linux-gnu/lib/ld-linux-aarch64.so.1 ] ||
+            { ran[$platform]="not run here: libc6-arm64-cross is missing"; return 0; }
+        runner=(qemu-aarch64 -L /usr/aarch64-linux-gnu)
+        "$zig/bin/python" -m ziglang cc -target aarch64-linux-gnu.2.17 -O1 -o "$host" "$tools/host.c" -ldl
+        ;;
+    esac
+    if ! ${runner[@]+"${runner[@]}"} "$host" "$library" "$resources" "$guid" "$out/load.txt" "$rows" \
+        >"$out/$platform.txt" 2>"$out/$platform-run.log"; then
+        tail -3 "$out/$platform-run.log" >&2
+        ran[$platform]="FAILED, see target/platforms/$platform-run.log"
+        return 1
+    fi
+    # wine's C library ends lines as Windows does.
+    sed -i 's/\r$//' "$out/$platform.txt"
+    if [ "$platform" = linux64 ]; then
+        ran[$platform]="run: $(wc -l <"$out/$platform.txt") rows"
+    elif [ -e "$out/linux64.txt" ]; then
+        local by=${runner[0]##*/} found
+        found=$("$PYTHON" "$tools/load.py" compare "$out/linux64.txt" "$out/$platform.txt") ||
+            { ran[$platform]="FAILED under $by against linux64: $found"; return 1; }
+        ran[$platform]="run under $by, against linux64: $found"
+    else
+        ran[$platform]="run, compared with nothing: linux64 was not asked for"
+    fi
+}
+
+platforms=(linux64 win64 aarch64-linux)
+[ ${#asked[@]} -eq 0 ] || platforms=("${asked[@]}")
+fetch_packages "${platforms[@]}"
+rm -f "$out"/*.txt
+failed=no
+binaries=()
+for platform in "${platforms[@]}"; do
+    if build_platform "$platform"; then
+        binaries+=(--binary "$platform=$out/$platform/${packed_as[$platform]}")
+    elif [[ "${built[$platform]}" == FAILED* ]]; then
+        failed=yes
+    fi
+done
+
+if [ ${#binaries[@]} -gt 0 ]; then
+    # The comparison has a joint of its own, whose load is known to stay below full slip.
+    "$IWAN" export "$tools/joint.json" -o "$out/compared.fmu" "${binaries[@]}" 2>/dev/null
+    guid=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$out/compared.fmu")
+    mkdir -p "$out/resources"
+    cp "$tools/joint.json" "$out/resources/joint.json"
+    rows=$("$PYTHON" "$tools/load.py" write "$out/load.txt")
+    for platform in "${platforms[@]}"; do
+        [ -e "$out/$platform/${packed_as[$platform]}" ] && [[ "${built[$platform]}" != no* ]] || continue
+        [[ "${built[$platform]}" == FAILED* ]] || run_platform "$platform" || failed=yes
+    done
+    "$IWAN" export "$joint" -o "$output" "${binaries[@]}" 2>/dev/null
+fi
+
+printf '\n%-14s  %s\n' platform "what was built, and what was run"
+for platform in "${platforms[@]}"; do
+    printf '%-14s  built: %s\n%-14s  %s\n' "$platform" "${built[$platform]-}" "" "${ran[$platform]-not run}"
+done
+echo "darwin64        not built here and never run: build it on a Mac and add it with --binary darwin64=FILE"
+[ ${#binaries[@]} -eq 0 ] || printf '\narchive of all that was built: %s\n' "${output#"$REPOSITORY/"}"
+[ "$failed" = no ] || exit 1
+for platform in ${asked[@]+"${asked[@]}"}; do
+    [[ "${built[$platform]}" != no* ]] || exit 2
+done

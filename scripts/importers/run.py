@@ -1,0 +1,105 @@
+"""One importer over one load, in a process of its own: an importer that crashes ends only this one.
+
+    python run.py IMPORTER JOINT.fmu LOAD.npy OUT.npz
+
+LOAD.npy holds a displacement [m] per communication point, STEP seconds apart. OUT.npz gets force,
+dissipation and stored energy at every point after the first, and the seconds that the steps took.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+STEP = 1e-3
+SIGNALS = ["force", "dissipation", "stored_energy"]
+
+
+def fmpy(archive: str, load: np.ndarray) -> tuple[list, float]:
+    """The Python API of fmpy."""
+    from fmpy import extract, read_model_description
+    from fmpy.fmi2 import FMU2Slave
+
+    description = read_model_description(archive)
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    unit = FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=extract(archive),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="joint",
+    )
+    unit.instantiate()
+    unit.setupExperiment(startTime=0.0)
+    unit.enterInitializationMode()
+    unit.exitInitializationMode()
+    rows, begun = [], time.perf_counter()
+    for row, value in enumerate(load[1:]):
+        unit.setReal([references["displacement"]], [value])
+        unit.doStep(row * STEP, STEP)
+        rows.append(unit.getReal([references[name] for name in SIGNALS]))
+    took = time.perf_counter() - begun
+    unit.terminate()
+    unit.freeInstance()
+    return rows, took
+
+
+def libcosimpy(archive: str, load: np.ndarray) -> tuple[list, float]:
+    """Open Simulation Platform's library, native, with an override of the input per step."""
+    from libcosimpy.CosimEnums import CosimVariableType
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimManipulator import CosimManipulator
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    execution = CosimExecution.from_step_size(round(STEP * 1e9))
+    index = execution.add_local_slave(CosimLocalSlave(archive, "joint"))
+    observer, override = CosimObserver.create_last_value(), CosimManipulator.create_override()
+    execution.add_observer(observer)
+    execution.add_manipulator(override)
+    references = {
+        v.name.decode(): v.reference
+        for v in execution.slave_variables(index)
+        if v.type == CosimVariableType.REAL.value
+    }
+    read = [references[name] for name in SIGNALS]
+    rows, begun = [], time.perf_counter()
+    for value in load[1:]:
+        override.slave_real_values(index, [references["displacement"]], [float(value)])
+        if not execution.step():
+            raise RuntimeError("libcosim refused a step")
+        rows.append(list(observer.last_real_values(index, read)))
+    return rows, time.perf_counter() - begun
+
+
+def ecospy(archive: str, load: np.ndarray) -> tuple[list, float]:
+    """Ecos, native."""
+    from ecospy import EcosSimulation, EcosSimulationStructure
+
+    with EcosSimulationStructure() as structure:
+        structure.add_model("joint", archive)
+        with EcosSimulation(STEP, structure=structure) as simulation:
+            simulation.init()
+            rows, begun = [], time.perf_counter()
+            for value in load[1:]:
+                simulation.set_real("joint::displacement", float(value))
+                simulation.step(1)
+                rows.append([simulation.get_real(f"joint::{name}") for name in SIGNALS])
+            took = time.perf_counter() - begun
+            simulation.terminate()
+    return rows, took
+
+
+IMPORTERS = {"fmpy": fmpy, "libcosimpy": libcosimpy, "ecospy": ecospy}
+
+
+def main() -> int:
+    """Command line."""
+    importer, archive, load, out = sys.argv[1:]
+    rows, took = IMPORTERS[importer](str(Path(archive).resolve()), np.load(load))
+    np.savez(out, rows=np.array(rows, dtype=float), seconds=took)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,159 @@
+/* A host in miniature: runs the FMU's library of one platform and prints every answer bit by bit.
+ *
+ *   host LIBRARY RESOURCES GUID LOAD ROWS
+ *
+ * LIBRARY is binaries/PLATFORM/IwanJoint.*, RESOURCES the folder with joint.json as a path, LOAD a
+ * text file with one sample per line: time and input as 16 hexadecimal digits each, the bits of a
+ * double. Texts of numbers and the sine of a C library differ between systems; bits do not. Half-way
+ * the state is saved, serialized and continued in a second instance.
+ *
+ * Output: per sample the bits of references 0 to 6. Exit status 0, or 1 with a message.
+ */
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+typedef HMODULE Library;
+static Library open_library(const char *path) { return LoadLibraryA(path); }
+static void *function_of(Library library, const char *name) {
+    return (void *)GetProcAddress(library, name);
+}
+#else
+#include <dlfcn.h>
+typedef void *Library;
+static Library open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
+static void *function_of(Library library, const char *name) { return dlsym(library, name); }
+#endif
+
+enum { SIGNALS = 7, OK = 0, CO_SIMULATION = 1 };
+
+typedef struct {
+    void (*logger)(void *, const char *, int, const char *, const char *, ...);
+    void *(*allocate)(size_t, size_t);
+    void (*release)(void *);
+    void (*step_finished)(void *, int);
+    void *environment;
+} Callbacks;
+
+static void stop(const char *what, const char *which) {
+    fprintf(stderr, "host: %s %s\n", what, which);
+    exit(1);
+}
+
+static void logger(void *environment, const char *instance, int status, const char *category,
+                   const char *message, ...) {
+    (void)environment;
+    fprintf(stderr, "%s: %s (%d): %s\n", instance, category, status, message);
+}
+
+static Library library;
+static void *find(const char *name) {
+    void *found = function_of(library, name);
+    if (!found) stop("the library lacks", name);
+    return found;
+}
+
+static void expect(int status, const char *call) {
+    if (status != OK) stop("refused:", call);
+}
+
+static double number(const char *digits) {
+    uint64_t bits = strtoull(digits, NULL, 16);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void *instance(const char *name, const char *guid, const char *uri, Callbacks *callbacks) {
+    void *(*instantiate)(const char *, int, const char *, const char *, const Callbacks *, int, int);
+    *(void **)&instantiate = find("fmi2Instantiate");
+    void *made = instantiate(name, CO_SIMULATION, guid, uri, callbacks, 0, 0);
+    if (!made) stop("refused:", "fmi2Instantiate");
+    return made;
+}
+
+int main(int count, char **arguments) {
+    if (count != 6) stop("usage:", "host LIBRARY RESOURCES GUID LOAD ROWS");
+    library = open_library(arguments[1]);
+    if (!library) stop("cannot load", arguments[1]);
+    FILE *load = fopen(arguments[4], "r");
+    if (!load) stop("cannot open", arguments[4]);
+    long half = strtol(arguments[5], NULL, 10) / 2;
+
+    int (*setup)(void *, int, double, double, int, double);
+    int (*enter)(void *), (*leave)(void *), (*terminate)(void *);
+    int (*set)(void *, const unsigned *, size_t, const double *);
+    int (*get)(void *, const unsigned *, size_t, double *);
+    int (*step)(void *, double, double, int);
+    int (*get_state)(void *, void **), (*set_state)(void *, void *), (*free_state)(void *, void **);
+    int (*size_of_state)(void *, void *, size_t *);
+    int (*serialize)(void *, void *, char *, size_t);
+    int (*deserialize)(void *, const char *, size_t, void **);
+    void (*release)(void *);
+    *(void **)&setup = find("fmi2SetupExperiment");
+    *(void **)&enter = find("fmi2EnterInitializationMode");
+    *(void **)&leave = find("fmi2ExitInitializationMode");
+    *(void **)&terminate = find("fmi2Terminate");
+    *(void **)&set = find("fmi2SetReal");
+    *(void **)&get = find("fmi2GetReal");
+    *(void **)&step = find("fmi2DoStep");
+    *(void **)&get_state = find("fmi2GetFMUstate");
+    *(void **)&set_state = find("fmi2SetFMUstate");
+    *(void **)&free_state = find("fmi2FreeFMUstate");
+    *(void **)&size_of_state = find("fmi2SerializedFMUstateSize");
+    *(void **)&serialize = find("fmi2SerializeFMUstate");
+    *(void **)&deserialize = find("fmi2DeSerializeFMUstate");
+    *(void **)&release = find("fmi2FreeInstance");
+
+    char uri[4096];
+    int windows_drive = arguments[2][0] != '/';
+    snprintf(uri, sizeof uri, windows_drive ? "file:///%s" : "file://%s", arguments[2]);
+    Callbacks callbacks = {logger, calloc, free, NULL, NULL};
+    void *unit = instance("host", arguments[3], uri, &callbacks);
+
+    const unsigned all[SIGNALS] = {0, 1, 2, 3, 4, 5, 6}, input = 0;
+    char time_digits[32], input_digits[32];
+    double before = 0.0;
+    for (long row = 0; fscanf(load, "%16s %16s", time_digits, input_digits) == 2; row++) {
+        double time = number(time_digits), value = number(input_digits), answers[SIGNALS];
+        if (row == 0) {
+            expect(setup(unit, 0, 0.0, time, 0, 0.0), "fmi2SetupExperiment");
+            expect(enter(unit), "fmi2EnterInitializationMode");
+            expect(set(unit, &input, 1, &value), "fmi2SetReal");
+            expect(leave(unit), "fmi2ExitInitializationMode");
+        } else {
+            expect(set(unit, &input, 1, &value), "fmi2SetReal");
+            expect(step(unit, before, time - before, 1), "fmi2DoStep");
+        }
+        before = time;
+        expect(get(unit, all, SIGNALS, answers), "fmi2GetReal");
+        for (int signal = 0; signal < SIGNALS; signal++) {
+            uint64_t bits;
+            memcpy(&bits, &answers[signal], sizeof bits);
+            printf("%016" PRIx64 "%c", bits, signal + 1 < SIGNALS ? ' ' : '\n');
+        }
+        if (row == half) {
+            void *state = NULL;
+            size_t size = 0;
+            expect(get_state(unit, &state), "fmi2GetFMUstate");
+            expect(size_of_state(unit, state, &size), "fmi2SerializedFMUstateSize");
+            char *bytes = malloc(size);
+            if (!bytes) stop("no memory for", "the state");
+            expect(serialize(unit, state, bytes, size), "fmi2SerializeFMUstate");
+            expect(free_state(unit, &state), "fmi2FreeFMUstate");
+            release(unit);
+            unit = instance("second", arguments[3], uri, &callbacks);
+            expect(deserialize(unit, bytes, size, &state), "fmi2DeSerializeFMUstate");
+            expect(set_state(unit, state), "fmi2SetFMUstate");
+            expect(free_state(unit, &state), "fmi2FreeFMUstate");
+            free(bytes);
+        }
+    }
+    expect(terminate(unit), "fmi2Terminate");
+    release(unit);
+    return 0;
+}
