@@ -148,6 +148,7 @@ mod extended {
                 lower: 0.0,
                 upper: 1.0,
                 vanishes_at: Some(0.0),
+                neutral: None,
                 meaning: "Free play.",
             }]
         }

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: 0.0,
     upper: 1e4,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "frequency below which the channel loses the displacement",
 }];
 

@@ -14,6 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: -0.95,
     upper: 0.95,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "share by which break-free forces are larger towards positive slip and smaller towards negative",
 }];
 

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "free play from contact on one side to contact on the other",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-9,
         upper: 1e9,
         vanishes_at: None,
+        neutral: None,
         meaning: "force over which the surfaces come to full contact",
     },
 ];

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "displacement per force that creep adds in the end",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-9,
         upper: 1e12,
         vanishes_at: None,
+        neutral: None,
         meaning: "time in which the rest of the creep falls to 1/e",
     },
 ];

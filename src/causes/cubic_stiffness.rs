@@ -17,6 +17,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: -1.0,
     upper: 1.0,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens",
 }];
 

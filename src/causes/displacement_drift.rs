@@ -14,6 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: -1.0,
     upper: 1.0,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "displacement added by the sensor per second",
 }];
 

@@ -15,6 +15,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: 0.0,
     upper: 1e6,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "moving mass between the load cell and the joint",
 }];
 

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "compliance that the opened joint has beyond that of the closed one",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -1e9,
         upper: 1e9,
         vanishes_at: None,
+        neutral: None,
         meaning: "force at which the surfaces part; its sign tells the side that opens",
     },
 ];

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "amplitude of the part that is zero in the middle of the record",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "amplitude of the part that is largest in the middle of the record",
     },
     Parameter {
@@ -34,6 +36,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 49.0,
         upper: 61.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "frequency of the mains; shows at its alias where the record is sampled too slowly",
     },
 ];

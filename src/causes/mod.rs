@@ -82,6 +82,11 @@ pub trait Cause: Effect {
     /// Where a search starts: full sets of values with a small amplitude, one for each shape worth
     /// trying; the search scales the amplitude itself.
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// Values from which refinements of the law that are neutral so far are fitted as well; the same
+    /// values where there are none.
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        values.to_vec()
+    }
     /// False where the fitted values are those of another cause: two laws may be the same formula
     /// in different ranges.
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -1e6,
         upper: 1e6,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "relative change of the break-free forces per newton of load",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1e13,
         vanishes_at: None,
+        neutral: None,
         meaning: "load that counts per metre of displacement; 0 where the clamping follows the force alone",
     },
 ];

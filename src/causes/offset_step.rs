@@ -22,6 +22,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "displacement by which the reading jumps",
     },
     Parameter {
@@ -31,6 +32,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1e9,
         vanishes_at: None,
+        neutral: None,
         meaning: "time of the jump from the start of the record",
     },
     Parameter {
@@ -40,6 +42,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: SLOWEST,
         upper: 16.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "natural logarithm of the record's length over that of the jump",
     },
 ];

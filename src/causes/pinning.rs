@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: 0.0,
         upper: 1e13,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "stiffness of the contact between shank and hole",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "slip towards positive u at which the shank meets the hole",
     },
     Parameter {
@@ -34,6 +36,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "slip towards negative u at which the shank meets the hole",
     },
     Parameter {
@@ -43,6 +46,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
+        neutral: Some(0.0),
         meaning: "slip beyond the gap over which the contact comes to its full stiffness",
     },
     Parameter {
@@ -52,6 +56,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: 0.0,
         upper: 100.0,
         vanishes_at: None,
+        neutral: Some(1.0),
         meaning: "stiffness of the contact towards negative u over that towards positive",
     },
 ];
@@ -109,14 +114,17 @@ impl Cause for Pinning {
     fn effect(&self) -> &'static dyn Effect {
         &Pinning
     }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        let rounding = 0.05 * scale.displacement;
+        vec![values[0], values[1], values[2], rounding, 1.001]
+    }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let stiffness = 0.02 * scale.stiffness;
-        let rounding = 0.05 * scale.displacement;
         let gaps = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.2].map(|gap| gap * scale.displacement);
         let mut starts = Vec::new();
         for positive in gaps {
             for negative in gaps {
-                starts.push(vec![stiffness, positive, negative, rounding, 1.0]);
+                starts.push(vec![stiffness, positive, negative, 0.0, 1.0]);
             }
         }
         starts

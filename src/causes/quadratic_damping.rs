@@ -15,6 +15,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: 0.0,
     upper: 1e18,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "force per square of the rate of the total displacement",
 }];
 

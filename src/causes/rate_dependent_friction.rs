@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "relative growth of the break-free forces per e-fold of the slip rate",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-15,
         upper: 1e3,
         vanishes_at: None,
+        neutral: None,
         meaning: "slip rate below which friction no longer falls",
     },
 ];

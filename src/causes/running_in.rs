@@ -15,6 +15,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -0.98,
         upper: 0.98,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "share of the lasting break-free forces that the fresh surfaces lack; negative where they have more",
     },
     Parameter {
@@ -24,6 +25,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-15,
         upper: 1e12,
         vanishes_at: None,
+        neutral: None,
         meaning: "dissipated energy over which the surfaces settle",
     },
 ];

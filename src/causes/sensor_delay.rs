@@ -14,6 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: -10.0,
     upper: 10.0,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "time by which the displacement channel lags the force channel",
 }];
 

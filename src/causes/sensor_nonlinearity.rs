@@ -15,6 +15,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -1e12,
         upper: 1e12,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "error of the reading per square of the displacement",
     },
     Parameter {
@@ -24,6 +25,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -1e24,
         upper: 1e24,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "error of the reading per cube of the displacement",
     },
 ];

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1e12,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "one over the displacement from the level to where nothing more is read; large for a clip",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "displacement towards positive U from which the reading falls behind",
     },
     Parameter {
@@ -34,6 +36,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "displacement towards negative U from which the reading falls behind",
     },
 ];

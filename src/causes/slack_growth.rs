@@ -17,6 +17,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "free play opened per newton of peak force beyond the threshold",
     },
     Parameter {
@@ -26,6 +27,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1e9,
         vanishes_at: None,
+        neutral: None,
         meaning: "peak force up to which the bearing surfaces take no damage",
     },
     Parameter {
@@ -35,6 +37,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 1e-9,
         upper: 1e9,
         vanishes_at: None,
+        neutral: None,
         meaning: "force over which the surfaces come to full contact",
     },
 ];

@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 3.0,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "share by which static friction exceeds kinetic friction",
     },
     Parameter {
@@ -25,6 +26,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-12,
         upper: 1.0,
         vanishes_at: None,
+        neutral: None,
         meaning: "slip after a reversal over which the excess is lost",
     },
 ];

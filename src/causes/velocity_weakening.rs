@@ -17,6 +17,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 0.95,
         vanishes_at: Some(0.0),
+        neutral: None,
         meaning: "share of the break-free forces that is lost at high slip rate",
     },
     Parameter {
@@ -26,6 +27,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 1e-15,
         upper: 1e3,
         vanishes_at: None,
+        neutral: None,
         meaning: "slip rate over which friction falls",
     },
 ];

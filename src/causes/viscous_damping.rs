@@ -14,6 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: 0.0,
     upper: 1e12,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "force per rate of the total displacement",
 }];
 

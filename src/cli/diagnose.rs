@@ -151,10 +151,25 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
             path.display()
         );
     }
+    let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    clear(&arguments.output, &written)?;
     match arguments.json {
         true => output::print(&format!("{diagnosis}\n")),
         false => output::print(&text::render(&findings)),
     }
+}
+
+/// Takes away what an earlier diagnosis left in the folder and this one has not written anew: a joint
+/// or a programme beside findings that are not its own would mislead.
+fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
+    for name in ["joint.json", "joint.fmu", "next_experiment.csv"] {
+        let path = folder.join(name);
+        if !written.contains(&name) && path.is_file() {
+            std::fs::remove_file(&path)?;
+            eprintln!("{} of an earlier diagnosis is removed", path.display());
+        }
+    }
+    Ok(())
 }
 
 /// The unit for this machine; said and left out where there is no library for it.

@@ -43,6 +43,10 @@ const LEADING: usize = 4;
 /// Share of the highest score below which no refit is tried: the score is the fall to first order.
 const WORTH: f64 = 0.03;
 
+/// Fall of the misfit beyond the information criterion's for a refinement of a law: one in a
+/// thousand by chance.
+const REFINED: f64 = 10.0;
+
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
@@ -79,12 +83,16 @@ pub fn trials(
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         let fit = best.unwrap_or_else(|| current.clone());
+        let fit = match fit.misfit < bound {
+            true => refined(problem, scale, *cause, fit),
+            false => fit,
+        };
         let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
         let own = fit.effects.iter().find(|a| a.effect.name() == cause.name());
         let plausible = own.is_none_or(|a| cause.plausible(&a.values, scale));
         Trial {
             cause: *cause,
-            evidence: if plausible { fall } else { 0.0 } - penalty(problem, *cause),
+            evidence: if plausible { fall } else { 0.0 } - penalty(problem, free(*cause, own)),
             plausible,
             fit,
         }
@@ -136,6 +144,40 @@ fn scored(problem: &Problem, scale: &Scale, timed: bool, current: &Fit) -> Vec<S
 }
 
 /// Half the information criterion's penalty of a cause's free values, doubled: `k ln n`.
-fn penalty(problem: &Problem, cause: &dyn Cause) -> f64 {
-    cause.parameters().len() as f64 * (problem.rows().max(3) as f64).ln()
+fn penalty(problem: &Problem, free: usize) -> f64 {
+    free as f64 * (problem.rows().max(3) as f64).ln()
+}
+
+/// Count of values that were fitted: all but the neutral ones.
+fn free(cause: &dyn Cause, fitted: Option<&Acting>) -> usize {
+    let neutral = fitted.map_or(0, |acting| {
+        let both = cause.parameters().iter().zip(&acting.values);
+        both.filter(|(p, v)| p.neutral == Some(**v)).count()
+    });
+    cause.parameters().len() - neutral
+}
+
+/// The fit with the refinements of the cause's law, where they bring more than they cost.
+fn refined(problem: &Problem, scale: &Scale, cause: &dyn Cause, fit: Fit) -> Fit {
+    let place = fit
+        .effects
+        .iter()
+        .position(|a| a.effect.name() == cause.name());
+    let Some(place) = place else {
+        return fit;
+    };
+    let before = free(cause, Some(&fit.effects[place]));
+    let mut effects = fit.effects.clone();
+    effects[place].values = cause.refined(&effects[place].values, scale);
+    if effects == fit.effects {
+        return fit;
+    }
+    let more = free(cause, Some(&effects[place])) - before;
+    let other = refit(problem, &fit, effects);
+    let fall = (fit.misfit - other.misfit) / dispersion(problem, &other);
+    if fall > penalty(problem, more) + REFINED {
+        other
+    } else {
+        fit
+    }
 }

@@ -256,6 +256,9 @@ pub(super) fn slopes(
     for (e, acting) in effects.iter().enumerate() {
         for (p, parameter) in acting.effect.parameters().iter().enumerate() {
             let value = acting.values[p];
+            if parameter.neutral == Some(value) {
+                continue;
+            }
             let mut unit = 1e-4
                 * value
                     .abs()

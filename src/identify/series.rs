@@ -16,6 +16,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     lower: 0.0,
     upper: 1e-2,
     vanishes_at: Some(0.0),
+    neutral: None,
     meaning: "displacement of the spring in series per force",
 }];
 

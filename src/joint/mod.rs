@@ -153,6 +153,7 @@ pub const SERIES_STIFFNESS: Parameter = Parameter {
     lower: f64::MIN_POSITIVE,
     upper: f64::INFINITY,
     vanishes_at: Some(f64::INFINITY),
+    neutral: None,
     meaning: "Stiffness of the spring in series with the Iwan network; infinite where rigid.",
 };
 
@@ -163,5 +164,6 @@ const INITIAL_STIFFNESS: Parameter = Parameter {
     lower: f64::MIN_POSITIVE,
     upper: f64::MAX,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness of the network before any slip.",
 };

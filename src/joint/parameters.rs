@@ -16,6 +16,9 @@ pub struct Parameter {
     /// Value at which an effect vanishes; `None` for a shape parameter that has no such value
     /// (the effect then vanishes with its other parameters).
     pub vanishes_at: Option<f64>,
+    /// Value at which a refinement of the law drops out; a fit leaves it there unless the data ask
+    /// for more.
+    pub neutral: Option<f64>,
     /// One sentence.
     pub meaning: &'static str,
 }

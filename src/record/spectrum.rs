@@ -53,7 +53,7 @@ fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
         .collect();
     let power: f64 = window.iter().map(|w| w * w).sum();
     let turns: Vec<(f64, f64)> = (0..SEGMENT).map(|i| phase(i).sin_cos()).collect();
-    let mut bins = vec![Vec::with_capacity(starts.len()); SEGMENT / 2];
+    let mut bins = vec![Vec::new(); SEGMENT / 2];
     for start in starts {
         let part = &residual[start..start + SEGMENT];
         let mean = part.iter().sum::<f64>() / SEGMENT as f64;
@@ -83,16 +83,21 @@ fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::{Rng, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// Coloured noise of unit variance, nearly normal, beneath a slow wave five times as large.
     fn record(correlation: f64, wave: f64) -> Vec<f64> {
-        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut state = 7_u64;
+        // Knuth's linear congruential generator, its upper bits.
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
         let mut last = 0.0;
         (0..6000)
             .map(|i| {
-                let normal = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+                let normal = (0..12).map(|_| random()).sum::<f64>() - 6.0;
                 last = correlation * last + (1.0 - correlation * correlation).sqrt() * normal;
                 last + wave * (0.04 * f64::from(i)).sin()
             })

@@ -158,6 +158,7 @@ static SERIES_STIFFNESS: Parameter = Parameter {
     lower: 1e-12,
     upper: f64::INFINITY,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness of the spring in series with the Iwan network",
 };
 

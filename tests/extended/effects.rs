@@ -10,6 +10,7 @@ pub const fn parameter(name: &'static str, vanishes_at: f64) -> Parameter {
         lower: 0.0,
         upper: f64::INFINITY,
         vanishes_at: Some(vanishes_at),
+        neutral: None,
         meaning: "For tests.",
     }
 }
@@ -50,6 +51,7 @@ impl Effect for Stop {
                 parameter("stiffness", 0.0),
                 Parameter {
                     vanishes_at: None,
+                    neutral: None,
                     ..parameter("gap", 0.0)
                 },
             ]

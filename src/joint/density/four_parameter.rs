@@ -38,6 +38,7 @@ impl FourParameter {
             lower: 1e-12,
             upper: 1e18,
             vanishes_at: None,
+            neutral: None,
             meaning: "Force at which the whole joint slips.",
         },
         STIFFNESS,
@@ -49,6 +50,7 @@ impl FourParameter {
             lower: 0.0,
             upper: 1e9,
             vanishes_at: None,
+            neutral: None,
             meaning: "Stiffness of the sliders that slip last over that of the power-law population; 0 is a smooth transition to full slip.",
         },
     ];

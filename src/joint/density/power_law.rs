@@ -43,6 +43,7 @@ impl PowerLaw {
             lower: 1e-300,
             upper: f64::INFINITY,
             vanishes_at: None,
+            neutral: None,
             meaning: "Largest break-free force of the power-law population; stronger sliders never slip.",
         },
         STIFFNESS,
@@ -157,6 +158,7 @@ pub(super) const COEFFICIENT: Parameter = Parameter {
     lower: 0.0,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Coefficient of the power law of break-free forces, in N^-(1+chi): its unit follows the exponent.",
 };
 pub(super) const EXPONENT: Parameter = Parameter {
@@ -166,6 +168,7 @@ pub(super) const EXPONENT: Parameter = Parameter {
     lower: -0.999,
     upper: 4.0,
     vanishes_at: None,
+    neutral: None,
     meaning: "Exponent of the power law of break-free forces; loss per cycle grows with force to the power chi + 3.",
 };
 pub(super) const SLIDER_STIFFNESS: Parameter = Parameter {
@@ -175,6 +178,7 @@ pub(super) const SLIDER_STIFFNESS: Parameter = Parameter {
     lower: 1e-12,
     upper: 1e18,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness common to all sliders, by which break-free forces and slip displacements convert.",
 };
 pub(super) const STIFFNESS: Parameter = Parameter {
@@ -184,5 +188,6 @@ pub(super) const STIFFNESS: Parameter = Parameter {
     lower: 1e-12,
     upper: 1e18,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness of the network before anything slips.",
 };

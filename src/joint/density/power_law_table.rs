@@ -16,6 +16,7 @@ const BREAK_FREE: Parameter = Parameter {
     lower: 1e-300,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Break-free forces of the table, rising; the first is the end of the power law.",
 };
 const DENSITY: Parameter = Parameter {
@@ -25,6 +26,7 @@ const DENSITY: Parameter = Parameter {
     lower: 0.0,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Density of break-free forces at the table's places.",
 };
 

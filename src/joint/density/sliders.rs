@@ -13,6 +13,7 @@ const WEIGHT: Parameter = Parameter {
     lower: 1e-300,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness of one slider.",
 };
 const SLIP_AT: Parameter = Parameter {
@@ -22,6 +23,7 @@ const SLIP_AT: Parameter = Parameter {
     lower: 1e-300,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Slip displacement at which one slider lets go.",
 };
 const ELASTIC: Parameter = Parameter {
@@ -31,6 +33,7 @@ const ELASTIC: Parameter = Parameter {
     lower: 0.0,
     upper: 1e300,
     vanishes_at: None,
+    neutral: None,
     meaning: "Stiffness that remains after every slider has slipped; zero at full slip.",
 };
 
