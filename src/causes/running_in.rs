@@ -1,5 +1,6 @@
 //! `running_in`: friction settles to its lasting value within the first cycles.
 
+use super::preload_loss::remaining;
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
@@ -7,7 +8,7 @@ use crate::joint::parameters::Parameter;
 /// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`.
 pub struct RunningIn;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "deficit",
         symbol: "a",
@@ -28,11 +29,21 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "dissipated energy over which the surfaces settle",
     },
+    Parameter {
+        name: "tail",
+        symbol: "q",
+        unit: "1",
+        lower: 0.0,
+        upper: 5.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "how slowly the change dies out: exponentially for 0, as 1/(1 + E/E_0) for 1",
+    },
 ];
 
 /// Share of a record's dissipated energy over which friction that falls has to settle: what takes
 /// longer is lost preload.
-const SOON: f64 = 0.3;
+const SOON: f64 = 0.12;
 
 impl Effect for RunningIn {
     fn name(&self) -> &'static str {
@@ -45,7 +56,7 @@ impl Effect for RunningIn {
         &PARAMETERS
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 - values[0] * (-last.dissipation / values[1]).exp();
+        let limit = 1.0 - values[0] * remaining(last.dissipation / values[1], values[2]);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -60,12 +71,15 @@ impl Cause for RunningIn {
             sign: "The first loops are wider and softer than the later ones of the same load; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
             separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
-            formula: "phi = phi_0 [1 - a exp(-E/E_0)]",
+            formula: "phi = phi_0 [1 - a (1 + q E/E_0)^(-1/q)], exp(-E/E_0) for q = 0",
             source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy as the measure of work (Fouvry; Schwingshackl et al. 2012).",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
         &RunningIn
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        vec![values[0], values[1], 0.3]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
         values[0] > 0.0 || values[1] < SOON * scale.dissipation
@@ -73,7 +87,7 @@ impl Cause for RunningIn {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.01, 0.05, 0.2, 0.8]
             .iter()
-            .map(|share| vec![0.05, share * scale.dissipation])
+            .map(|share| vec![0.05, share * scale.dissipation, 0.0])
             .collect()
     }
 }
@@ -89,7 +103,7 @@ mod tests {
                 dissipation,
                 ..Situation::default()
             };
-            RunningIn.slip_limit(&[0.4, 2.0], &last, &[]).positive
+            RunningIn.slip_limit(&[0.4, 2.0, 0.0], &last, &[]).positive
         };
         assert_eq!(at(0.0), 0.6);
         assert!((at(2.0) - (1.0 - 0.4 / std::f64::consts::E)).abs() < 1e-15);

@@ -2,7 +2,7 @@
 //! the baseline, the best set grown forward and pruned backward.
 
 use super::prepare::Bench;
-use super::tested::{predicts, tested};
+use super::tested::{Prospect, tested};
 use super::trials::{Effort, Trial, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Problem, refit};
@@ -66,8 +66,8 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
 
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
 ///
-/// Of the causes with enough evidence, the best is taken that also predicts held-out cycles better
-/// than the set without it.
+/// Of the causes with enough evidence, the one is taken that lowers the squared error most, held-out
+/// samples included, of those that [`Prospect::holds`] lets pass.
 fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Vec<Trial>) {
     let problem = &bench.train;
     let beyond = (baseline.misfit - problem.rows() as f64).max(0.0);
@@ -77,12 +77,18 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
         let trials = trials(problem, &bench.scale, timed, &current, effort);
         let enough =
             |t: &Trial| round == 0 || current.misfit - t.fit.misfit > FURTHER_SHARE * beyond;
-        let next = trials
+        let promising = trials
             .iter()
             .filter(|t| t.evidence >= ALARM && enough(t))
-            .take(PREDICTORS)
-            .find(|t| effort == Effort::Quick || predicts(bench, &current, &t.fit))
-            .map(|t| t.fit.clone());
+            .take(match effort {
+                Effort::Quick => 1,
+                Effort::Full => PREDICTORS,
+            });
+        let next = promising
+            .map(|t| (t, Prospect::of(bench, &current, &t.fit)))
+            .filter(|(_, prospect)| effort == Effort::Quick || prospect.holds())
+            .max_by(|(_, a), (_, b)| (a.fitted + a.held_out).total_cmp(&(b.fitted + b.held_out)))
+            .map(|(t, _)| t.fit.clone());
         first.get_or_insert(trials);
         match next {
             Some(fit) => current = prune(problem, fit),

@@ -7,7 +7,7 @@ use crate::identify::{Fit, refit};
 
 /// The set without the causes that gain nothing on held-out data.
 ///
-/// A single cause has to lower the held-out error. Every one of several has to do so beyond the
+/// A single cause has to lower the held-out error or most of the misfit. Every one of several has to do so beyond the
 /// scatter of the held-out cycles (95 % interval of the bootstrap): the more causes, the more ways
 /// to mend by one what another's law is wrong about.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
@@ -27,14 +27,66 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    if fit.effects.is_empty() || predicts(bench, baseline, &fit) {
-        return fit;
+    match Prospect::of(bench, baseline, &fit) {
+        _ if fit.effects.is_empty() => fit,
+        prospect if prospect.holds() => fit,
+        _ => baseline.clone(),
     }
-    baseline.clone()
 }
 
-/// True where a set predicts held-out cycles better than the smaller one it has grown from.
-pub fn predicts(bench: &Bench, smaller: &Fit, larger: &Fit) -> bool {
-    let (before, after) = (smaller.predict(&bench.train), larger.predict(&bench.train));
-    ratio(bench, &before, &after).0 < 1.0
+/// Difference that two models make on held-out samples, in noise variances, below which those
+/// samples cannot tell them apart: right and wrong differ by twice it, with four standard deviations
+/// between them.
+const TELLING: f64 = 16.0;
+
+/// Share of the misfit beyond noise from which a cause is named although held-out cycles are
+/// predicted worse: its law then goes on differently from the joint's, but nothing else is at work.
+const DOMINANT: f64 = 0.5;
+
+/// What a larger set of causes does on fitted and on held-out samples, in noise variances.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prospect {
+    /// Fall of the misfit on fitted samples.
+    pub fitted: f64,
+    /// Fall of the squared error on held-out samples.
+    pub held_out: f64,
+    /// Square of the difference between the two predictions of held-out samples.
+    difference: f64,
+    /// Misfit of the smaller set beyond the noise, on fitted samples.
+    beyond: f64,
+}
+
+impl Prospect {
+    /// Compares a set with the smaller one it has grown from.
+    pub fn of(bench: &Bench, smaller: &Fit, larger: &Fit) -> Prospect {
+        let (before, after) = (smaller.predict(&bench.train), larger.predict(&bench.train));
+        let mut prospect = Prospect {
+            fitted: smaller.misfit - larger.misfit,
+            held_out: 0.0,
+            difference: 0.0,
+            beyond: smaller.misfit - bench.train.rows() as f64,
+        };
+        for (k, held) in bench.held.iter().enumerate() {
+            let (_, judged) = bench.whole.channels(k);
+            let noise = &bench.noise[k];
+            // Neighbours that vary together count as fewer.
+            let a = noise.autoregression;
+            let weight = (1.0 - a) / (1.0 + a) / noise.deviation.powi(2);
+            for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+                let (old, new) = (before[k].judged[i], after[k].judged[i]);
+                prospect.held_out +=
+                    weight * ((judged[i] - old).powi(2) - (judged[i] - new).powi(2));
+                prospect.difference += weight * (new - old).powi(2);
+            }
+        }
+        prospect
+    }
+
+    /// False where held-out samples could have shown the set to be better and show it to be worse,
+    /// unless it takes most of the misfit away.
+    pub fn holds(&self) -> bool {
+        self.held_out > 0.0
+            || self.difference < TELLING
+            || self.fitted > DOMINANT * self.beyond && self.fitted + self.held_out > 0.0
+    }
 }

@@ -151,6 +151,9 @@ struct Steps {
     before: f64,
 }
 
+/// Steps that every refit may take: the first ones are often short.
+const FIRST: usize = 3;
+
 /// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
 const PROSPECT: f64 = 4.0;
 
@@ -210,7 +213,8 @@ fn refine(
             if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
             {
                 let fall = misfit - trial_misfit;
-                accepted = fall > SETTLED * misfit && trial_misfit - PROSPECT * fall < steps.bound;
+                let prospect = round < FIRST || trial_misfit - PROSPECT * fall < steps.bound;
+                accepted = fall > SETTLED * misfit && prospect;
                 coefficients = solution[..columns].to_vec();
                 effects = trial_effects;
                 predictions = trial;
