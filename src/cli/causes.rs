@@ -80,7 +80,7 @@ fn page(cause: &dyn Cause) -> String {
         ("Law", page.formula),
         ("Source", page.source),
     ] {
-        text.push_str(&format!("{title}\n{}\n\n", wrapped(paragraph)));
+        text.push_str(&format!("{title}\n{}\n\n", wrapped(2, paragraph)));
     }
     text.push_str("Parameters\n");
     for parameter in cause.parameters() {
@@ -104,20 +104,20 @@ fn entry(parameter: &Parameter) -> String {
         // writing to a string cannot fail
         let _ = write!(text, ", no effect at {vanishing}");
     }
-    text.push_str(&format!("\n    {meaning}\n"));
+    text.push_str(&format!("\n{}\n", wrapped(4, meaning)));
     text
 }
 
-/// The paragraph in lines of up to 88 characters behind two spaces.
-fn wrapped(paragraph: &str) -> String {
-    let mut lines = vec![String::from(" ")];
+/// The paragraph in lines of up to 89 characters, the given count of spaces before each.
+fn wrapped(indent: usize, paragraph: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
     for word in paragraph.split_whitespace() {
         let line = lines
             .last_mut()
             .filter(|line| line.chars().count() + word.chars().count() < 89);
         match line {
             Some(line) => line.extend([" ", word]),
-            None => lines.push(format!("  {word}")),
+            None => lines.push(format!("{:indent$}{word}", "")),
         }
     }
     lines.join("\n")
