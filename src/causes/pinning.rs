@@ -61,6 +61,10 @@ static PARAMETERS: [Parameter; 5] = [
     },
 ];
 
+/// Share of the largest displacement that the shank has to go before it bears: one that bears from
+/// the start on one side is a joint that opens.
+const MET: f64 = 0.05;
+
 /// Depth of the contact and its slope.
 fn contact(depth: f64, rounding: f64) -> (f64, f64) {
     if depth <= 0.0 {
@@ -113,6 +117,9 @@ impl Cause for Pinning {
     }
     fn effect(&self) -> &'static dyn Effect {
         &Pinning
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[1].min(values[2]) > MET * scale.displacement
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
         let rounding = 0.05 * scale.displacement;

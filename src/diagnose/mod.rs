@@ -25,6 +25,7 @@ use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit};
 use crate::joint::JointError;
 use crate::record::Record;
+use crate::record::thinned::thinned;
 
 /// Diagnoses the records of one joint.
 ///
@@ -47,6 +48,13 @@ pub fn diagnose_with(
     mut progress: impl FnMut(&str),
 ) -> Result<Findings, JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
+    let all: usize = records.iter().map(Record::len).sum();
+    let thin: Vec<Record> = records
+        .iter()
+        .map(|r| thinned(r, MANY * r.len() / all.max(1)).unwrap_or_else(|| r.clone()))
+        .collect();
+    let records = thin.as_slice();
+    let used: usize = records.iter().map(Record::len).sum();
     progress("noise and baseline");
     let mut bench = prepare(records);
     if !bench.noise_is_repeated() {
@@ -70,10 +78,18 @@ pub fn diagnose_with(
     };
     let (mut findings, found, whole) = assemble(records, &bench, found)?;
     findings.outlook.dummy = said;
+    if used < all {
+        findings.notes.push(format!(
+            "{used} of the {all} samples were used: a cycle keeps at least a hundred, and its turning points."
+        ));
+    }
     progress("looking ahead: what can be told apart, and by which experiment");
     experiment::look_ahead(&mut findings, &bench, &found, &whole, timed, options);
     Ok(findings)
 }
+
+/// Samples of all records together beyond which densely sampled cycles are thinned.
+const MANY: usize = 60_000;
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
 /// less is the least bad of wrong explanations.

@@ -4,6 +4,7 @@ pub mod cycles;
 pub mod noise;
 mod spectrum;
 pub mod split;
+pub mod thinned;
 
 /// Force and displacement of one test.
 #[derive(Debug, Clone, PartialEq, Default)]
