@@ -27,10 +27,27 @@ pub fn summary(findings: &Findings) -> String {
             "{names} explains what the baseline gets wrong: the held-out error falls to {ratio:.2} of the baseline's and only noise is left."
         ),
         Verdict::PartlyExplained => format!(
-            "{names} takes the held-out error to {ratio:.2} of the baseline's; structure beyond the noise remains ({:.0} % of it).",
+            "{}; structure beyond the noise remains ({:.0} % of it).",
+            partly(&names, ratio, findings.gain.1),
             100.0 * findings.unexplained.share
         ),
         Verdict::Unexplained => "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it.".to_string(),
+    }
+}
+
+/// What a partial explanation does to prediction: better, worse, or neither beyond its scatter.
+fn partly(names: &str, ratio: f64, interval: Option<(f64, f64)>) -> String {
+    let proven = interval.map_or(ratio < 1.0, |(_, upper)| upper < 1.0);
+    match (proven, ratio > 1.0) {
+        (true, _) => {
+            format!("{names} takes the held-out error to {ratio:.2} of the baseline's")
+        }
+        (false, false) => format!(
+            "{names} fits best, but the gain on unseen data is not proven (held-out error {ratio:.2} of the baseline's)"
+        ),
+        (false, true) => format!(
+            "Prediction gets worse: {names} fits best what was fitted, but takes the held-out error to {ratio:.2} of the baseline's"
+        ),
     }
 }
 
