@@ -147,6 +147,27 @@ fn every_joint_cause_survives_and_no_measurement_cause_enters() {
     }
 }
 
+#[test]
+fn a_refinement_that_is_left_out_is_neutral() {
+    let cause = iwan::causes::find("pinning").unwrap();
+    let acting = |values: Vec<f64>| Acting {
+        effect: cause.effect(),
+        values,
+    };
+    let whole = saved(
+        sliders(),
+        3.0,
+        vec![acting(vec![2e6, 1e-5, 2e-5, 0.0, 1.0])],
+    );
+    let mut text: serde_json::Value = serde_json::from_str(&write(&whole)).unwrap();
+    let given = text["causes"][0]["parameters"].as_object_mut().unwrap();
+    assert!(given.remove("rounding").is_some() && given.remove("stiffness_ratio").is_some());
+    assert_eq!(read(&text.to_string(), "joint.json"), Ok(whole));
+    let given = text["causes"][0]["parameters"].as_object_mut().unwrap();
+    given.remove("gap_negative");
+    assert!(read(&text.to_string(), "joint.json").is_err());
+}
+
 /// The text of a good file with one part replaced.
 fn changed(from: &str, to: &str) -> String {
     let density = Density::FourParameter(FourParameter::new(1e3, 1e6, -0.5, 0.3).unwrap());

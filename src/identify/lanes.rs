@@ -1,10 +1,9 @@
-//! The inner loops of a march, eight operators at a time: sums run in eight lanes whose order is
-//! fixed, so that every processor gives the same digits, and are compiled for the widest vectors
-//! the processor has.
+//! The inner loops of a march, 32 operators at a time: sums run in 32 lanes whose order is fixed, so
+//! that every processor gives the same digits, and are compiled for the widest vectors it has.
 
 use pulp::{Arch, NullaryFnOnce};
 
-/// Operators handled together; grids are filled up to a multiple of it.
+/// Operators handled together; a bank is filled up to a multiple of it.
 pub const LANES: usize = 32;
 
 type Lanes = [f64; LANES];

@@ -189,7 +189,7 @@ impl<'a> March<'a> {
     fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
         let parallel = self.has[index(Place::BesideSlip)] || self.has[index(Place::BesideJoint)];
         let mut trial = if parallel {
-            self.network_force() + (force - self.last_applied(step))
+            self.network_force() + (force - self.last_applied())
         } else {
             force
         };
@@ -241,8 +241,7 @@ impl<'a> March<'a> {
         }
     }
 
-    fn last_applied(&self, step: f64) -> f64 {
-        let _ = step;
+    fn last_applied(&self) -> f64 {
         let mut across = 0.0;
         if self.has[index(Place::BesideJoint)] {
             for acting in self.effects {
@@ -274,8 +273,7 @@ impl<'a> March<'a> {
             let error = trial + path - displacement;
             let slope = 1.0 + path_slope * joint_slope;
             if !path_acts || error.abs() <= 1e-13 * displacement.abs() || round >= 60 {
-                let (across, across_slope, velocity) = self.beside_joint(displacement, step);
-                let _ = across_slope;
+                let (across, _, velocity) = self.beside_joint(displacement, step);
                 self.accept(time, step, (trial, joint_force, displacement, velocity));
                 let share = (1.0 / slope).clamp(0.0, 1.0);
                 return Step {

@@ -31,8 +31,7 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
     let optional = |channel: &Option<Vec<f64>>| channel.as_ref().map(|c| pick(c));
     Some(Record {
         name: record.name.clone(),
-        // Without time the count of samples is the clock; it has to keep its pace.
-        time: Some(pick(&record.clock())).filter(|_| record.time.is_some()),
+        time: optional(&record.time),
         force: pick(&record.force),
         displacement: pick(&record.displacement),
         preload: optional(&record.preload),

@@ -162,6 +162,11 @@ fn parameters(entry: &Entry, glossary: &[Parameter]) -> Result<Vec<f64>, SavedEr
             ..
         } = parameter;
         let needed = format!("a number in {unit} between {lower} and {upper}");
+        // A refinement of a law may be left out: it then drops out of it.
+        if let (None, Some(neutral)) = (entry.find(name), parameter.neutral) {
+            values.push(neutral);
+            continue;
+        }
         let given = entry.get(name, &needed)?;
         let value = if given.value.is_null() {
             f64::INFINITY
