@@ -21,7 +21,7 @@ const UPPER_HALF: u64 = u64::MAX << 27;
 /// below against both `libm` and the platform's `powf`.
 #[inline]
 pub fn power(x: f64, y: f64) -> f64 {
-    if !(x >= f64::MIN_POSITIVE && x <= f64::MAX && y.abs() <= LARGEST_EXPONENT) {
+    if !((f64::MIN_POSITIVE..=f64::MAX).contains(&x) && y.abs() <= LARGEST_EXPONENT) {
         return libm::pow(x, y);
     }
     let (head, tail) = logarithm(x);
