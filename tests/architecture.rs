@@ -1,5 +1,6 @@
 //! Holds the house to its plan: who may name whom (the table in ARCHITECTURE.md), how large a file
-//! may be, how files may be called, where `unsafe` may stand, and that every cause is catalogued.
+//! may be, how files may be called, where `unsafe` may stand, that every cause is catalogued, and that
+//! the physics answers alike on every platform.
 
 mod source;
 
@@ -33,6 +34,17 @@ const EMPTY_NAMES: [&str; 8] = [
 const PURE_PACKAGES: [&str; 1] = ["thiserror"];
 /// Those rooms.
 const PURE_ROOMS: [&str; 3] = ["joint", "causes", "record"];
+/// One file may name `libm`: the functions that the platform's C library would answer differently
+/// from system to system come from there (src/joint/elementary.rs says more).
+const ELEMENTARY: &str = "src/joint/elementary";
+/// Rooms whose results an exported joint answers with.
+const SAME_EVERYWHERE: [&str; 2] = ["joint", "causes"];
+/// Methods of the standard library whose last bit is the platform's, or is not specified.
+const OF_THE_PLATFORM: [&str; 28] = [
+    "powf", "powi", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "cbrt",
+    "hypot", "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh",
+    "tanh", "asinh", "acosh", "atanh", "gamma", "ln_gamma",
+];
 
 /// Files of src/causes that hold what several causes share, and no cause.
 const SHARED_BY_CAUSES: [&str; 1] = ["mod"];
@@ -153,13 +165,49 @@ fn pure_rooms_name_no_package() {
         }
         for (line, path) in file.first_segments() {
             assert!(
-                !packages.contains(&path) || PURE_PACKAGES.contains(&path.as_str()),
+                !packages.contains(&path)
+                    || PURE_PACKAGES.contains(&path.as_str())
+                    || (path == "libm" && file.path.starts_with(ELEMENTARY)),
                 "{}:{line}: `{}` names the package `{path}`",
                 file.path,
                 file.room()
             );
         }
     }
+}
+
+#[test]
+fn physics_takes_no_function_from_the_platforms_c_library() {
+    let mut found = Vec::new();
+    let mut checked = 0;
+    for file in rust_files("src") {
+        if !SAME_EVERYWHERE.contains(&file.room()) {
+            continue;
+        }
+        let product = file.lines_before_tests();
+        for (number, line) in file.code_lines().take(product) {
+            checked += 1;
+            for name in OF_THE_PLATFORM {
+                let called = [format!(".{name}("), format!("f64::{name}")];
+                let is_called = |call: &String| {
+                    line.match_indices(call.as_str()).any(|(at, _)| {
+                        let after = line[at + call.len()..].chars().next();
+                        call.ends_with('(')
+                            || !after.is_some_and(|c| c.is_alphanumeric() || c == '_')
+                    })
+                };
+                if called.iter().any(is_called) {
+                    found.push(format!("{}:{number}: `{name}`", file.path));
+                }
+            }
+        }
+    }
+    assert!(checked > 1000, "the physics was not found");
+    assert!(
+        found.is_empty(),
+        "take these from src/joint/elementary.rs:\n{}",
+        found.join("\n")
+    );
 }
 
 #[test]

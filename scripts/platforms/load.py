@@ -5,7 +5,7 @@
 
 The load is a growing two-tone force with nested loops, in the bits of its doubles, so that no two
 systems round it differently. `compare` prints one line: identical bits, or the largest difference
-of any signal relative to that signal's largest value; exit status 1 beyond `TOLERANCE`.
+of any signal relative to that signal's largest value, and exit status 1.
 """
 
 import math
@@ -13,8 +13,6 @@ import struct
 import sys
 from pathlib import Path
 
-# Two C libraries' `pow` may differ in its last bit; the joint adds a few such terms.
-TOLERANCE = 1e-12
 ROWS = 4001
 DURATION = 4.0
 LARGEST_FORCE = 700.0
@@ -46,7 +44,7 @@ def read(path: Path) -> list[list[float]]:
 
 
 def compare(reference: Path, other: Path) -> bool:
-    """Prints how far two hosts' rows lie apart; true where that is rounding."""
+    """Prints how far two hosts' rows lie apart; true where they are the same bits."""
     expected, came = read(reference), read(other)
     if len(expected) != ROWS or len(came) != ROWS:
         print(f"{len(expected)} and {len(came)} rows instead of {ROWS}")
@@ -64,7 +62,7 @@ def compare(reference: Path, other: Path) -> bool:
         if apart / scale > largest:
             largest, where = apart / scale, name
     print(f"largest relative difference {largest:.1e} ({where})")
-    return largest <= TOLERANCE
+    return False
 
 
 def main() -> int:

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::elementary::tanh;
 use crate::joint::parameters::Parameter;
 
 /// Free play that the load path crosses whenever the force changes its sign,
@@ -46,7 +47,7 @@ impl Effect for Clearance {
         &PARAMETERS
     }
     fn in_series(&self, values: &[f64], force: f64, _step: f64, _memory: &[f64]) -> Response {
-        let shape = (force / values[1]).tanh();
+        let shape = tanh(force / values[1]);
         Response {
             value: 0.5 * values[0] * shape,
             slope: 0.5 * values[0] / values[1] * (1.0 - shape * shape),

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
+use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
 /// A Kelvin element in series, `τ ṡ = J F − s`, solved exactly for a force that goes straight
@@ -34,7 +35,7 @@ static PARAMETERS: [Parameter; 2] = [
 /// What a first-order lag keeps of its value, and takes of its input's old and new value, over a
 /// step of `x` time constants in which the input goes straight; the three add up to 1.
 pub(super) fn lag(x: f64) -> [f64; 3] {
-    let gone = -(-x).exp_m1();
+    let gone = -expm1(-x);
     // 1 − (1 − exp(−x))/x, by its series where the difference would lose its digits.
     let new = if x < 1e-4 {
         x / 2.0 - x * x / 6.0

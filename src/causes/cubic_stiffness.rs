@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::elementary::cube;
 use crate::joint::parameters::Parameter;
 
 /// A displacement of the spring beyond F/K_1, `δ = b F³`; positive softens, negative hardens.
@@ -55,7 +56,7 @@ impl Cause for CubicStiffness {
         &CubicStiffness
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.01 * scale.displacement / scale.force.powi(3)]]
+        vec![vec![0.01 * scale.displacement / cube(scale.force)]]
     }
 }
 

@@ -3,6 +3,7 @@
 use super::sensor_delay::displacement_at;
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::elementary::{sin, square};
 use crate::joint::parameters::Parameter;
 
 /// The load cell reads the force that moves a mass as well, `F_meas = F + m Ü`.
@@ -37,7 +38,7 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
     let reach = reach.min(0.25 * (time[count - 1] - time[0]));
     let half = (0.5 * reach * frequency(truth)).min(1.0);
     let made_good = if half > 0.0 {
-        (half / half.sin()).powi(2)
+        square(half / sin(half))
     } else {
         1.0
     };
@@ -57,10 +58,7 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
 
 /// Sum of squares of the moves from sample to sample.
 fn moves(channel: &[f64]) -> f64 {
-    channel
-        .windows(2)
-        .map(|two| (two[1] - two[0]).powi(2))
-        .sum()
+    channel.windows(2).map(|two| square(two[1] - two[0])).sum()
 }
 
 /// The motion's own frequency \[rad/s\]: ratio of its rate to its size, in the mean of squares.
@@ -70,8 +68,8 @@ fn frequency(truth: &Trajectory) -> f64 {
     let (mut size, mut rate) = (0.0, 0.0);
     for (time, u) in truth.time.windows(2).zip(truth.displacement.windows(2)) {
         let length = time[1] - time[0];
-        size += (u[0] - mean).powi(2) * length;
-        rate += (u[1] - u[0]).powi(2) / length;
+        size += square(u[0] - mean) * length;
+        rate += square(u[1] - u[0]) / length;
     }
     (rate / size).sqrt()
 }

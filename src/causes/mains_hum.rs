@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::elementary::sincos;
 use crate::joint::parameters::Parameter;
 
 /// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`, t from the
@@ -57,7 +58,7 @@ impl Effect for MainsHum {
         };
         let middle = 0.5 * (start + end);
         let hum = |t: &f64| {
-            let (sine, cosine) = (std::f64::consts::TAU * values[2] * (t - middle)).sin_cos();
+            let (sine, cosine) = sincos(std::f64::consts::TAU * values[2] * (t - middle));
             values[0] * sine + values[1] * cosine
         };
         truth.time.iter().map(hum).collect()
@@ -88,7 +89,7 @@ impl Cause for MainsHum {
             .iter()
             .flat_map(|frequency| {
                 [15.0_f64, 75.0, 135.0].map(|degrees| {
-                    let (sine, cosine) = degrees.to_radians().sin_cos();
+                    let (sine, cosine) = sincos(degrees.to_radians());
                     vec![amplitude * sine, amplitude * cosine, *frequency]
                 })
             })

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::elementary::{exp, hypot, tanh};
 use crate::joint::parameters::Parameter;
 
 /// The sensor's zero moves by a height at a time, `U_meas = U + (h/2)[1 + tanh(2 (t − t_0)/w)]`,
@@ -63,9 +64,9 @@ impl Effect for OffsetStep {
             return Vec::new();
         };
         let sample = (end - start) / truth.time.len() as f64;
-        let length = (end - start) * (-sharpness).exp();
-        let width = length.hypot(sample).max(f64::MIN_POSITIVE);
-        let share = |t: &f64| 0.5 + 0.5 * (2.0 * (t - start - jump) / width).tanh();
+        let length = (end - start) * exp(-sharpness);
+        let width = hypot(length, sample).max(f64::MIN_POSITIVE);
+        let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - start - jump) / width);
         truth.time.iter().map(|t| height * share(t)).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::elementary::{exp, log1p};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`.
@@ -43,9 +44,9 @@ static PARAMETERS: [Parameter; 3] = [
 /// What is left of a change after the work `x` in units of its energy, `(1 + q x)^(−1/q)`.
 pub(super) fn remaining(work: f64, tail: f64) -> f64 {
     if tail > 0.0 {
-        (-(tail * work).ln_1p() / tail).exp()
+        exp(-log1p(tail * work) / tail)
     } else {
-        (-work).exp()
+        exp(-work)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
 
 /// A force proportional to the rate of the total displacement times its magnitude,
@@ -56,7 +57,7 @@ impl Cause for QuadraticDamping {
         true
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.01 * scale.force / scale.velocity.powi(2)]]
+        vec![vec![0.01 * scale.force / square(scale.velocity)]]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::elementary::{expm1, log1p};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + |v|/v_0)`, where v follows u̇ over
@@ -49,7 +50,7 @@ pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
         *high = high.max(now.slip);
         let renewal = RENEWAL * (*high - *low);
         if renewal > 0.0 {
-            let renewed = -(-(now.slip_rate * now.step).abs() / renewal).exp_m1();
+            let renewed = -expm1(-(now.slip_rate * now.step).abs() / renewal);
             *rate += renewed * (now.slip_rate - *rate);
         }
     }
@@ -72,7 +73,7 @@ impl Effect for RateDependentFriction {
         follow_rate(now, memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 + values[0] * (memory[0].abs() / values[1]).ln_1p();
+        let limit = 1.0 + values[0] * log1p(memory[0].abs() / values[1]);
         SlipLimit {
             positive: limit,
             negative: limit,

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::elementary;
 use crate::joint::parameters::Parameter;
 
 /// The sensor reads a bent curve, `U_meas = U + a U² + b U³`.
@@ -73,7 +74,7 @@ impl Cause for SensorNonlinearity {
             .map(|[square, cube]| {
                 vec![
                     error * square / scale.displacement,
-                    error * cube / scale.displacement.powi(2),
+                    error * cube / elementary::square(scale.displacement),
                 ]
             })
             .collect()

@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
+use crate::joint::elementary::{exp, log1p, tanh};
 use crate::joint::parameters::Parameter;
 
 /// Free play in the load path that past peaks have opened,
@@ -70,7 +71,7 @@ impl Effect for SlackGrowth {
     }
     fn in_series(&self, values: &[f64], force: f64, _step: f64, memory: &[f64]) -> Response {
         let (gap, growth) = gap(values, force.abs().max(memory[0]));
-        let shape = (force / values[2]).tanh();
+        let shape = tanh(force / values[2]);
         let opening = if force.abs() > memory[0] {
             0.5 * growth * shape.abs()
         } else {
@@ -87,8 +88,8 @@ impl Effect for SlackGrowth {
         let (gap, _) = gap(values, memory[0]);
         let load = (now.force / values[2]).abs();
         // ln cosh x = x + ln(1 + exp(−2x)) − ln 2, without overflow.
-        let ln_cosh = load + (-2.0 * load).exp().ln_1p() - std::f64::consts::LN_2;
-        Some(0.5 * gap * values[2] * (load * load.tanh() - ln_cosh))
+        let ln_cosh = load + log1p(exp(-2.0 * load)) - std::f64::consts::LN_2;
+        Some(0.5 * gap * values[2] * (load * tanh(load) - ln_cosh))
     }
 }
 

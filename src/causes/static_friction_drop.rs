@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::elementary::exp;
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces that are higher after each reversal until the surfaces have slid,
@@ -72,7 +73,7 @@ impl Effect for StaticFrictionDrop {
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
         let slid = (last.slip - memory[0]) / values[1];
-        let limit = 1.0 + values[0] * (-slid * slid).exp();
+        let limit = 1.0 + values[0] * exp(-slid * slid);
         SlipLimit {
             positive: limit,
             negative: limit,

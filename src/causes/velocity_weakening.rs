@@ -3,6 +3,7 @@
 use super::rate_dependent_friction::{RATE_MEMORY, follow_rate};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−|v|/v_s)]`, where v follows u̇
@@ -49,7 +50,7 @@ impl Effect for VelocityWeakening {
         follow_rate(now, memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 + values[0] * (-memory[0].abs() / values[1]).exp_m1();
+        let limit = 1.0 + values[0] * expm1(-memory[0].abs() / values[1]);
         SlipLimit {
             positive: limit,
             negative: limit,

@@ -2,6 +2,7 @@
 
 pub mod density;
 pub mod effect;
+pub(crate) mod elementary;
 pub mod error;
 mod extended;
 pub mod memory;

@@ -1,5 +1,7 @@
 //! Cells of a density: weighted by exact mass, placed at their centroid.
 
+use crate::joint::elementary::cube;
+
 /// Weights and places of the cells between graded edges.
 pub(super) struct Cells {
     /// Stiffness of each cell \[N/m\].
@@ -22,7 +24,7 @@ pub(super) fn graded(moments: impl Fn(f64) -> (f64, f64), count: usize, end: f64
     let mut below = 0.0;
     let mut before = (0.0, 0.0);
     for i in 1..=count {
-        let edge = end * (i as f64 / count as f64).powi(3);
+        let edge = end * cube(i as f64 / count as f64);
         let after = moments(edge);
         let weight = after.0 - before.0;
         if weight > 0.0 {

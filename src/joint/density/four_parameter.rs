@@ -5,6 +5,7 @@ use super::power_law::{EXPONENT, STIFFNESS};
 use super::seed::Seed;
 use super::small_force::SmallForce;
 use super::{Sliders, checked};
+use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 use crate::joint::simulation::JointError;
 use crate::joint::virgin::VirginCurve;
@@ -73,7 +74,7 @@ impl FourParameter {
         let limit = slip_force * (1.0 + ratio) / (stiffness * (ratio + mean_place));
         let curve = Seed {
             stiffness,
-            bend: stiffness / ((1.0 + ratio) * (exponent + 2.0) * limit.powf(exponent + 1.0)),
+            bend: stiffness / ((1.0 + ratio) * (exponent + 2.0) * power(limit, exponent + 1.0)),
             exponent,
             limit,
             force_at_limit: slip_force,

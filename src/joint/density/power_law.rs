@@ -4,6 +4,7 @@ use super::cells::graded;
 use super::seed::Seed;
 use super::small_force::SmallForce;
 use super::{Sliders, checked};
+use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 use crate::joint::simulation::JointError;
 use crate::joint::virgin::VirginCurve;
@@ -115,13 +116,14 @@ pub(super) fn cut_seed(
     stiffness: f64,
 ) -> Seed {
     let chi = exponent;
-    let used_up = ((chi + 1.0) * stiffness / (slider_stiffness * coefficient))
-        .powf(1.0 / (chi + 1.0))
-        / slider_stiffness;
+    let used_up = power(
+        (chi + 1.0) * stiffness / (slider_stiffness * coefficient),
+        1.0 / (chi + 1.0),
+    ) / slider_stiffness;
     let wanted = break_free_limit / slider_stiffness;
     let mut seed = Seed {
         stiffness,
-        bend: coefficient * slider_stiffness.powf(chi + 2.0) / ((chi + 1.0) * (chi + 2.0)),
+        bend: coefficient * power(slider_stiffness, chi + 2.0) / ((chi + 1.0) * (chi + 2.0)),
         exponent,
         limit: f64::INFINITY,
         force_at_limit: f64::INFINITY,

@@ -1,5 +1,6 @@
 //! The part that the parametric families share: a power-law population up to a limit.
 
+use crate::joint::elementary::power;
 use crate::joint::virgin::VirginCurve;
 
 /// Virgin curve of `ρ = R φ^χ` below a limiting slip ū, straight beyond it:
@@ -28,25 +29,25 @@ const LAST_BIT: f64 = 0.25 * f64::EPSILON;
 impl Seed {
     /// `k Λ_0(ku)` of the power-law population alone \[N/m\], `0 ≤ u ≤ ū`: `(χ+2) A u^(χ+1)`.
     pub fn population_stiffness(&self, slip: f64) -> f64 {
-        (self.exponent + 2.0) * self.bend * slip.powf(self.exponent + 1.0)
+        (self.exponent + 2.0) * self.bend * power(slip, self.exponent + 1.0)
     }
 
     /// `Λ_1(ku)` of the power-law population alone \[N\], `0 ≤ u ≤ ū`: `(χ+1) A u^(χ+2)`.
     pub fn population_force(&self, slip: f64) -> f64 {
-        (self.exponent + 1.0) * self.bend * slip.powf(self.exponent + 2.0)
+        (self.exponent + 1.0) * self.bend * power(slip, self.exponent + 2.0)
     }
 
     /// `d(u) = R k^(χ+2) u^(χ+3) / ((χ+2)(χ+3))` \[J\], `0 ≤ u ≤ ū`.
     fn population_loss(&self, slip: f64) -> f64 {
         let chi = self.exponent;
-        (chi + 1.0) / (chi + 3.0) * self.bend * slip.powf(chi + 3.0)
+        (chi + 1.0) / (chi + 3.0) * self.bend * power(slip, chi + 3.0)
     }
 }
 
 impl VirginCurve for Seed {
     fn force(&self, slip: f64) -> f64 {
         if slip < self.limit {
-            let straightness = self.bend * slip.powf(self.exponent + 1.0);
+            let straightness = self.bend * power(slip, self.exponent + 1.0);
             (slip * (self.stiffness - straightness)).min(self.force_at_limit)
         } else if self.remaining > 0.0 {
             self.force_at_limit + self.remaining * (slip - self.limit)
@@ -77,7 +78,7 @@ impl VirginCurve for Seed {
         let (mut low, mut high) = (force / self.stiffness, self.limit);
         let mut slip = low;
         for _ in 0..MOST_STEPS {
-            let bent = self.bend * slip.powf(chi + 1.0);
+            let bent = self.bend * power(slip, chi + 1.0);
             let slope = self.stiffness - (chi + 2.0) * bent;
             let missing = force - slip * (self.stiffness - bent);
             if missing > 0.0 {

@@ -1,5 +1,7 @@
 //! What every power-law joint does while the load is small: two numbers, ϑ and χ.
 
+use crate::joint::elementary::{exp2, power};
+
 /// The small-force laws of a density that begins as `ρ = R φ^χ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SmallForce {
@@ -21,7 +23,7 @@ impl SmallForce {
         let chi = exponent;
         SmallForce {
             coefficient: 4.0 * coefficient / slider_stiffness
-                * (slider_stiffness / stiffness).powf(chi + 3.0)
+                * power(slider_stiffness / stiffness, chi + 3.0)
                 / ((chi + 2.0) * (chi + 3.0)),
             exponent,
         }
@@ -34,7 +36,7 @@ impl SmallForce {
     /// `a − c = a F_0 / (3νP)` (Eq. 15, 18: printed is the two-dimensional law) with the pressure
     /// `p_0 (2x/a)^½`, `p_0 = 3P/(2πa²)`, near the edge (Eq. 16, 19).
     pub fn dissipation(&self, force_amplitude: f64) -> f64 {
-        self.coefficient * force_amplitude.powf(self.exponent + 3.0)
+        self.coefficient * power(force_amplitude, self.exponent + 3.0)
     }
 
     /// Slip left at zero force after the first loading to F_M \[N\]:
@@ -43,7 +45,7 @@ impl SmallForce {
     pub fn residual_slip(&self, largest_force: f64) -> f64 {
         let chi = self.exponent;
         self.coefficient * (chi + 3.0) / (4.0 * (chi + 1.0))
-            * (1.0 - (-(chi + 1.0)).exp2())
-            * largest_force.powf(chi + 2.0)
+            * (1.0 - exp2(-(chi + 1.0)))
+            * power(largest_force, chi + 2.0)
     }
 }

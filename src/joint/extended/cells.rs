@@ -1,12 +1,16 @@
 //! Sliders that stand for any density over its whole range, where no amplitude is known.
 
 use crate::joint::density::Sliders;
+use crate::joint::elementary::{exp, log, square};
 use crate::joint::simulation::JointError;
 use crate::joint::virgin::VirginCurve;
 
-/// Edges lie at `end (i/count)^GRADING`: spacing 3 % of the slip at full range, 10 % at 1e-4 of it
+/// Edges lie at `end (i/count)⁸`: spacing 3 % of the slip at full range, 10 % at 1e-4 of it
 /// and 25 % at 1e-7 (for 256 cells), since a simulation meets any amplitude.
-const GRADING: i32 = 8;
+fn grading(share: f64) -> f64 {
+    square(square(square(share)))
+}
+
 /// Share of the slipping stiffness that may be missing at the end of the range.
 const MISSING: f64 = 1e-13;
 
@@ -21,7 +25,7 @@ pub(in crate::joint) fn fine_cells(
 ) -> Result<Sliders, JointError> {
     let (last_before, end) = range_end(curve);
     let mut edges: Vec<f64> = (1..count)
-        .map(|i| end * (i as f64 / count as f64).powi(GRADING))
+        .map(|i| end * grading(i as f64 / count as f64))
         .collect();
     edges.extend([last_before, end]);
     let (mut weight, mut slip_at) = (Vec::new(), Vec::new());
@@ -50,9 +54,9 @@ fn range_end(curve: &impl VirginCurve) -> (f64, f64) {
     let (mut low, mut high) = (f64::MIN_POSITIVE, f64::MAX);
     // Halves the exponent first, then the digits: 1100 halvings of the ratio at most.
     loop {
-        let ratio = (low.ln() + high.ln()) / 2.0;
+        let ratio = (log(low) + log(high)) / 2.0;
         let middle = if high / low > 4.0 {
-            ratio.exp()
+            exp(ratio)
         } else {
             low + (high - low) / 2.0
         };
