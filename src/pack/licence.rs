@@ -5,6 +5,7 @@
 pub const LINKED: &[(&str, &str)] = &[
     ("itoa", "MIT OR Apache-2.0"),
     ("libc", "MIT OR Apache-2.0"),
+    ("libm", "MIT"),
     ("memchr", "Unlicense OR MIT"),
     ("serde_core", "MIT OR Apache-2.0"),
     ("serde_json", "MIT OR Apache-2.0"),
