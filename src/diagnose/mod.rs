@@ -18,8 +18,9 @@ pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
 use prepare::{Bench, prepare};
-use search::{Found, dispersion, quick, search};
+use search::{Found, quick, search};
 use structure::structure;
+use trials::dispersion;
 
 use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit};

@@ -3,16 +3,9 @@
 
 use super::prepare::Bench;
 use super::tested::{Prospect, tested};
-use super::trials::{Effort, Trial, trials};
+use super::trials::{ALARM, Effort, Trial, dispersion, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Problem, refit};
-
-/// Fall of the whitened misfit, per excess dispersion, that a first cause must bring.
-///
-/// The largest fall over the catalogue's shapes on clean records is a maximum of correlated χ²₁
-/// and χ²₂ variables: its 99 % quantile for the count of shapes used lies near 16; the penalty for
-/// two parameters at the sample counts of interest (ln n each) brings it to this.
-pub const ALARM: f64 = 30.0;
 
 /// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
 /// the named cause's law being only nearly right.
@@ -31,18 +24,12 @@ pub struct Found {
     pub baseline: Fit,
     /// The named set on the training samples; the baseline's fit where nothing is named.
     pub best: Fit,
-    /// Every cause tried alone beside the final set's others, best first.
+    /// Every cause tried alone beside the baseline, best first.
     pub trials: Vec<Trial>,
     /// For each named cause, in the order of `best.effects`: rivals that do as well in its place.
     pub rivals: Vec<Vec<String>>,
     /// For each named cause: evidence it brings beside the others.
     pub evidence: Vec<f64>,
-}
-
-/// χ² per degree of freedom, at least one: differences of misfit count only as far as the best
-/// model reaches the noise.
-pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
-    (fit.misfit / problem.rows().max(1) as f64).max(1.0)
 }
 
 /// The set of causes alone, found in a quick pass: what it leaves tells the noise.
@@ -77,18 +64,17 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
         let trials = trials(problem, &bench.scale, timed, &current, effort);
         let enough =
             |t: &Trial| round == 0 || current.misfit - t.fit.misfit > FURTHER_SHARE * beyond;
-        let promising = trials
-            .iter()
-            .filter(|t| t.evidence >= ALARM && enough(t))
-            .take(match effort {
-                Effort::Quick => 1,
-                Effort::Full => PREDICTORS,
-            });
-        let next = promising
-            .map(|t| (t, Prospect::of(bench, &current, &t.fit)))
-            .filter(|(_, prospect)| effort == Effort::Quick || prospect.holds())
-            .max_by(|(_, a), (_, b)| (a.fitted + a.held_out).total_cmp(&(b.fitted + b.held_out)))
-            .map(|(t, _)| t.fit.clone());
+        let mut promising = trials.iter().filter(|t| t.evidence >= ALARM && enough(t));
+        let next = match effort {
+            Effort::Quick => promising.next(),
+            Effort::Full => promising
+                .take(PREDICTORS)
+                .map(|t| (t, Prospect::of(bench, &current, &t.fit)))
+                .filter(|(_, prospect)| prospect.holds())
+                .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))
+                .map(|(t, _)| t),
+        };
+        let next = next.map(|t| t.fit.clone());
         first.get_or_insert(trials);
         match next {
             Some(fit) => current = prune(problem, fit),

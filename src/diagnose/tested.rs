@@ -7,9 +7,9 @@ use crate::identify::{Fit, refit};
 
 /// The set without the causes that gain nothing on held-out data.
 ///
-/// A single cause has to lower the held-out error or most of the misfit. Every one of several has to do so beyond the
-/// scatter of the held-out cycles (95 % interval of the bootstrap): the more causes, the more ways
-/// to mend by one what another's law is wrong about.
+/// A single cause has to lower the held-out error or most of the misfit. Every one of several has to
+/// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
+/// causes, the more ways to mend by one what another's law is wrong about.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     while fit.effects.len() > 1 {
         let after = fit.predict(&bench.train);
@@ -27,10 +27,10 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    match Prospect::of(bench, baseline, &fit) {
-        _ if fit.effects.is_empty() => fit,
-        prospect if prospect.holds() => fit,
-        _ => baseline.clone(),
+    if fit.effects.is_empty() || Prospect::of(bench, baseline, &fit).holds() {
+        fit
+    } else {
+        baseline.clone()
     }
 }
 
@@ -47,9 +47,9 @@ const DOMINANT: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prospect {
     /// Fall of the misfit on fitted samples.
-    pub fitted: f64,
+    fitted: f64,
     /// Fall of the squared error on held-out samples.
-    pub held_out: f64,
+    held_out: f64,
     /// Square of the difference between the two predictions of held-out samples.
     difference: f64,
     /// Misfit of the smaller set beyond the noise, on fitted samples.
@@ -82,11 +82,16 @@ impl Prospect {
         prospect
     }
 
+    /// Fall on fitted and held-out samples together.
+    pub fn total(&self) -> f64 {
+        self.fitted + self.held_out
+    }
+
     /// False where held-out samples could have shown the set to be better and show it to be worse,
     /// unless it takes most of the misfit away.
     pub fn holds(&self) -> bool {
         self.held_out > 0.0
             || self.difference < TELLING
-            || self.fitted > DOMINANT * self.beyond && self.fitted + self.held_out > 0.0
+            || self.fitted > DOMINANT * self.beyond && self.total() > 0.0
     }
 }

@@ -3,10 +3,15 @@
 
 use rayon::prelude::*;
 
-use super::search::{ALARM, dispersion};
 use crate::causes::{CATALOGUE, Cause, Scale};
 use crate::identify::{Fit, Problem, Score, refit, refit_below, scores};
 use crate::joint::effect::Acting;
+
+/// Fall of the whitened misfit, per excess dispersion, that a first cause must bring.
+///
+/// Judged, not simulated for the record at hand: the largest of many correlated χ²₁ and χ²₂ falls
+/// over the catalogue's shapes, and the penalty of two values (ln n each) on top.
+pub const ALARM: f64 = 30.0;
 
 /// One cause fitted jointly with everything else in the set.
 #[derive(Debug, Clone)]
@@ -76,10 +81,7 @@ pub fn trials(
             .map(|s| {
                 let mut effects = current.effects.clone();
                 effects.push(s.acting.clone());
-                match bound.is_finite() {
-                    true => refit_below(problem, current, effects, bound),
-                    false => refit(problem, current, effects),
-                }
+                refit_below(problem, current, effects, bound)
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         let fit = best.unwrap_or_else(|| current.clone());
@@ -105,14 +107,17 @@ pub fn trials(
         .iter()
         .fold(current.misfit, |least, t| least.min(t.fit.misfit));
     let bound = lowest + BEHIND * (current.misfit - lowest) + ALARM;
-    match effort {
-        Effort::Quick => {}
-        Effort::Full => {
-            trials.par_extend(others.par_iter().map(|one| try_one(one, bound)));
-        }
+    if effort == Effort::Full {
+        trials.par_extend(others.par_iter().map(|one| try_one(one, bound)));
     }
     trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     trials
+}
+
+/// χ² per degree of freedom, at least one: differences of misfit count only as far as the best
+/// model reaches the noise.
+pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
+    (fit.misfit / problem.rows().max(1) as f64).max(1.0)
 }
 
 type Scored = (&'static dyn Cause, Vec<Score>);

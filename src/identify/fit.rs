@@ -87,11 +87,7 @@ pub fn baseline(problem: &Problem) -> Fit {
 
 /// Refits everything from the given start.
 pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
-    let steps = Steps {
-        before: start.misfit,
-        ..Steps::full()
-    };
-    begin(problem, start, effects, steps)
+    refit_below(problem, start, effects, f64::INFINITY)
 }
 
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.

@@ -31,6 +31,39 @@ pub struct Step {
     pub share: f64,
 }
 
+/// What is known of where the one root of an increasing equation lies.
+struct Bracket {
+    low: f64,
+    high: f64,
+}
+
+impl Bracket {
+    fn new() -> Bracket {
+        Bracket {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+        }
+    }
+
+    /// Newton's next trial; the middle where it leaves the bracket, or a `leap` back while one side
+    /// is open.
+    fn next(&mut self, trial: f64, error: f64, slope: f64, leap: f64) -> f64 {
+        if error > 0.0 {
+            self.high = self.high.min(trial);
+        } else {
+            self.low = self.low.max(trial);
+        }
+        let newton = trial - error / slope;
+        if newton > self.low && newton < self.high {
+            newton
+        } else if self.low.is_finite() && self.high.is_finite() {
+            0.5 * (self.low + self.high)
+        } else {
+            trial - leap
+        }
+    }
+}
+
 fn index(place: Place) -> usize {
     place as usize
 }
@@ -193,7 +226,7 @@ impl<'a> March<'a> {
         } else {
             force
         };
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut bracket = Bracket::new();
         let mut answer;
         let mut round = 0;
         loop {
@@ -220,19 +253,7 @@ impl<'a> March<'a> {
                     share,
                 };
             }
-            if error > 0.0 {
-                high = high.min(trial);
-            } else {
-                low = low.max(trial);
-            }
-            let mut next = trial - error / slope;
-            if !(next > low && next < high) {
-                next = if low.is_finite() && high.is_finite() {
-                    0.5 * (low + high)
-                } else {
-                    trial - 2.0 * error
-                };
-            }
+            let next = bracket.next(trial, error, slope, 2.0 * error);
             if next == trial {
                 round = 60;
             }
@@ -258,11 +279,12 @@ impl<'a> March<'a> {
 
     fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
         let path_acts = self.has[index(Place::Spring)] || self.has[index(Place::InSeries)];
-        let mut trial = self.last.slip + if path_acts { 0.0 } else { displacement };
-        if !path_acts {
-            trial = displacement;
-        }
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut trial = if path_acts {
+            self.last.slip
+        } else {
+            displacement
+        };
+        let mut bracket = Bracket::new();
         let mut round = 0;
         loop {
             let (network, tangent) = self.network(trial);
@@ -282,19 +304,7 @@ impl<'a> March<'a> {
                     share,
                 };
             }
-            if error > 0.0 {
-                high = high.min(trial);
-            } else {
-                low = low.max(trial);
-            }
-            let mut next = trial - error / slope;
-            if !(next > low && next < high) {
-                next = if low.is_finite() && high.is_finite() {
-                    0.5 * (low + high)
-                } else {
-                    trial - error
-                };
-            }
+            let next = bracket.next(trial, error, slope, error);
             if next == trial {
                 round = 60;
             }

@@ -4,7 +4,8 @@
 use super::separability::TOLD;
 use crate::causes::{Cause, Kind, find};
 use crate::diagnose::prepare::Bench;
-use crate::diagnose::search::{ALARM, Found, dispersion};
+use crate::diagnose::search::Found;
+use crate::diagnose::trials::{ALARM, dispersion};
 use crate::identify::{Fit, Operators, Problem, baseline, refit};
 use crate::joint::effect::Acting;
 use crate::record::Record;
