@@ -5,6 +5,7 @@ mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
+pub mod intervals;
 pub mod prepare;
 pub mod search;
 pub mod structure;
@@ -20,7 +21,6 @@ use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdi
 use prepare::{Bench, prepare};
 use search::{Found, quick, search};
 use structure::structure;
-use trials::dispersion;
 
 use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit};
@@ -184,7 +184,7 @@ fn assemble(
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
-    let spread = dispersion(&bench.whole, whole).sqrt();
+    let intervals = intervals::intervals(&bench.whole, &bench.scale, whole);
     let mut causes: Vec<NamedCause> = whole
         .effects
         .iter()
@@ -195,20 +195,12 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
                 .parameters()
                 .iter()
                 .zip(&acting.values)
-                .zip(&whole.errors[e])
-                .map(|((parameter, &value), &error)| {
-                    let half = 1.96 * error * spread;
-                    Estimate {
-                        name: parameter.name.to_string(),
-                        value,
-                        unit: parameter.unit.to_string(),
-                        interval: half.is_finite().then(|| {
-                            (
-                                (value - half).max(parameter.lower),
-                                (value + half).min(parameter.upper),
-                            )
-                        }),
-                    }
+                .zip(&intervals[e])
+                .map(|((parameter, &value), &interval)| Estimate {
+                    name: parameter.name.to_string(),
+                    value,
+                    unit: parameter.unit.to_string(),
+                    interval,
                 })
                 .collect();
             NamedCause {

@@ -4,6 +4,7 @@
 
 pub mod exported;
 pub mod family;
+pub mod finer;
 pub mod fit;
 pub mod interval;
 pub mod lanes;
@@ -11,6 +12,7 @@ pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
+pub mod scatter;
 pub mod score;
 pub mod seed;
 pub mod series;
@@ -21,5 +23,6 @@ pub use fit::{Fit, baseline, refit, refit_below};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};
+pub use scatter::{Scatter, scatter};
 pub use score::{Score, scores};
 pub use seed::{Seed, SeedError};

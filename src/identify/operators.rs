@@ -55,7 +55,7 @@ impl Operators {
         Operators::with_edges(form, edges)
     }
 
-    fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
+    pub(super) fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
         let mut from = 0.0;
         let mut thresholds = Vec::with_capacity(edges.len() * SHARED);
         for &to in &edges {
