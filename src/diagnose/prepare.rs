@@ -4,6 +4,7 @@ use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::noise::{Noise, from_differences, from_repeats, from_residual};
+use crate::record::outliers::{Neighbours, outliers};
 use crate::record::split::held_out;
 
 /// Records ready for the search.
@@ -15,6 +16,8 @@ pub struct Bench {
     pub train: Problem,
     /// Held-out marks per record.
     pub held: Vec<Vec<bool>>,
+    /// Samples that stand alone, per record: replaced by what their neighbours say, and no witness.
+    pub struck: Vec<Vec<bool>>,
     /// Noise of the judged channel per record.
     pub noise: Vec<Noise>,
     /// Sizes for the starts of the search.
@@ -83,7 +86,13 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 /// Prepares records: form, first unweighted baseline, noise, weights, marks.
 pub fn prepare(records: &[Record]) -> Bench {
     let form = form(records);
-    let (whole, first) = fitted(Problem::new(form, records));
+    let mut problem = Problem::new(form, records);
+    let mut struck: Vec<Vec<bool>> = records.iter().map(|r| vec![false; r.len()]).collect();
+    strike_channels(&mut problem, &mut struck);
+    let (mut whole, mut first) = fitted(problem);
+    if strike_residuals(&mut whole, &first, &mut struck) {
+        first = baseline(&whole);
+    }
     let noise = noise(&whole, &first);
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
@@ -94,6 +103,7 @@ pub fn prepare(records: &[Record]) -> Bench {
         whole,
         train,
         held,
+        struck,
         noise: Vec::new(),
         scale,
     };
@@ -115,8 +125,10 @@ impl Bench {
             for (problem, keep) in [(&mut self.whole, true), (&mut self.train, false)] {
                 let record = &mut problem.records[k];
                 record.autoregression = a;
-                for (weight, held) in record.weight.iter_mut().zip(&self.held[k]) {
-                    *weight = if keep || !held { 1.0 / innovation } else { 0.0 };
+                let marks = self.held[k].iter().zip(&self.struck[k]);
+                for (weight, (held, struck)) in record.weight.iter_mut().zip(marks) {
+                    let counts = !struck && (keep || !held);
+                    *weight = if counts { 1.0 / innovation } else { 0.0 };
                 }
             }
         }
@@ -146,6 +158,43 @@ impl Bench {
             })
             .collect()
     }
+}
+
+/// Strikes out what stands alone in a channel: a spike of the input would send the model's memory
+/// elsewhere for good.
+fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
+    for (record, struck) in problem.records.iter_mut().zip(struck) {
+        for channel in [&mut record.force, &mut record.displacement] {
+            for (i, instead) in outliers(channel, Neighbours::Line) {
+                channel[i] = instead;
+                struck[i] = true;
+                record.weight[i] = 0.0;
+            }
+        }
+    }
+}
+
+/// Strikes out samples of the judged channel that stand alone in what the baseline leaves; true
+/// where there are any.
+fn strike_residuals(problem: &mut Problem, first: &Fit, struck: &mut [Vec<bool>]) -> bool {
+    let predictions = first.predict(problem);
+    let form = problem.operators.form;
+    let mut any = false;
+    for (k, record) in problem.records.iter_mut().enumerate() {
+        let judged = match form {
+            Form::Play => &mut record.displacement,
+            Form::Stop => &mut record.force,
+        };
+        let predicted = &predictions[k].judged;
+        let residual: Vec<f64> = judged.iter().zip(predicted).map(|(y, p)| y - p).collect();
+        for (i, instead) in outliers(&residual, Neighbours::Level) {
+            judged[i] = predicted[i] + instead;
+            struck[k][i] = true;
+            record.weight[i] = 0.0;
+            any = true;
+        }
+    }
+    any
 }
 
 /// The baseline on a grid adapted to it, as long as that lowers the misfit.

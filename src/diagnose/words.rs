@@ -110,7 +110,15 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
     }
-    for record in records {
+    for (record, struck) in records.iter().zip(&bench.struck) {
+        let count = struck.iter().filter(|s| **s).count();
+        if count > 0 {
+            notes.push(format!(
+                "Record {}: {count} of {} samples stand alone against their neighbours on both sides and were left out.",
+                record.name,
+                record.len()
+            ));
+        }
         let largest = record.force.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         if record
             .force

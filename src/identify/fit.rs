@@ -2,6 +2,7 @@
 //! damped Gauss–Newton (Levenberg–Marquardt) steps on the exact march with non-negative coefficients
 //! (variable projection after Kaufman: the dictionary is linear, only effect parameters are stepped).
 
+use super::march::Rows;
 use super::nonnegative::Normal;
 use super::operators::Form;
 use super::problem::{Prediction, Problem, Weighing};
@@ -173,10 +174,21 @@ fn refine(
     let mut predictions = problem.predict(&coefficients, &effects);
     let (mut misfit, mut offsets) = problem.misfit(&predictions);
     for _ in 0..SMALLER {
+        if misfit <= steps.before {
+            break;
+        }
+        let anew = projected(problem, &coefficients, &effects, &predictions);
+        let trial = problem.predict(&anew, &effects);
+        let (trial_misfit, trial_offsets) = problem.misfit(&trial);
+        if trial_misfit <= steps.before {
+            (coefficients, predictions, misfit, offsets) =
+                (anew, trial, trial_misfit, trial_offsets);
+            break;
+        }
         let smaller = shrunk(&effects);
         let trial = problem.predict(&coefficients, &smaller);
         let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-        if misfit <= steps.before || trial_misfit >= misfit {
+        if trial_misfit >= misfit {
             break;
         }
         (effects, predictions, misfit, offsets) = (smaller, trial, trial_misfit, trial_offsets);
@@ -195,6 +207,9 @@ fn refine(
         bounded[columns..].iter_mut().for_each(|b| *b = false);
         let solution = normal.solve(&bounded);
         errors = standard_errors(&normal, &solution, columns, records, &effects, &slopes);
+        if round > 0 && misfit - normal.misfit(&solution) < SETTLED * misfit {
+            break;
+        }
         let mut accepted = false;
         for _ in 0..TRIALS {
             let mut damped = normal.clone();
@@ -206,6 +221,7 @@ fn refine(
             let trial_effects = moved(&effects, &slopes, &solution[first..]);
             let trial = problem.predict(&solution[..columns], &trial_effects);
             let (trial_misfit, trial_offsets) = problem.misfit(&trial);
+            if std::env::var("TRACE").is_ok() { eprintln!("round {round} damping {damping:.0e} misfit {misfit:.1} trial {trial_misfit:.1} {:?}", trial_effects.iter().map(|a| &a.values).collect::<Vec<_>>()); }
             if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
             {
                 let fall = misfit - trial_misfit;
@@ -260,9 +276,11 @@ pub(super) fn slopes(
                 continue;
             }
             let mut unit = 1e-4
-                * value
-                    .abs()
-                    .max(1e-6 * (parameter.upper - parameter.lower).min(1.0));
+                * match value.abs() {
+                    // No size to go by.
+                    0.0 => 1e-6 * (parameter.upper - parameter.lower).min(1.0),
+                    size => size,
+                };
             if value + unit > parameter.upper {
                 unit = -unit;
             }
@@ -304,8 +322,9 @@ fn normal(
         let (_, measured) = problem.channels(k);
         let mut weighing = Weighing::new(record, size + 1);
         let mut row = vec![0.0; size + 1];
+        let mut rows = Rows::default();
         problem.pass(k, coefficients, effects, |i, march, step| {
-            march.row(step, &mut row[..columns]);
+            rows.next(march, step, &mut row[..columns]);
             row[columns + k] = 1.0;
             for (value, slope) in row[columns + records..size].iter_mut().zip(slopes) {
                 *value = slope.values[k][i];
@@ -323,6 +342,23 @@ fn normal(
     }
     normal.mirror();
     normal
+}
+
+/// Dictionary coefficients that suit the effects as they are: the joint without an effect is not the
+/// joint beside it.
+fn projected(
+    problem: &Problem,
+    coefficients: &[f64],
+    effects: &[Acting],
+    at: &[Prediction],
+) -> Vec<f64> {
+    let columns = problem.operators.columns();
+    let normal = normal(problem, coefficients, effects, at, &[]);
+    let mut bounded = vec![true; normal.size];
+    bounded[columns..].iter_mut().for_each(|b| *b = false);
+    let mut solution = normal.solve(&bounded);
+    solution.truncate(columns);
+    solution
 }
 
 /// Effects after a step along the moves, kept inside their bounds.

@@ -29,6 +29,34 @@ pub struct Step {
     pub displacement: f64,
     /// d judged / d network output: what a column of the dictionary is worth at this sample.
     pub share: f64,
+    /// d displacement / d its two earlier values, latest first: a force that follows the rate of the
+    /// displacement carries a change of the model on to later samples.
+    pub carried: [f64; 2],
+}
+
+/// Rows of the dictionary along a pass, with what each carries on to later ones.
+#[derive(Debug, Clone, Default)]
+pub struct Rows {
+    before: [Vec<f64>; 2],
+}
+
+impl Rows {
+    /// Row at the last accepted sample: d judged / d coefficient, `D_i = share P_i + Σ carried_k
+    /// D_{i−k}`. Checked against differences of whole passes by this room's tests.
+    pub fn next(&mut self, march: &March, step: Step, row: &mut [f64]) {
+        march.row(step, row);
+        if !march.has[index(Place::BesideJoint)] {
+            return;
+        }
+        for (before, share) in self.before.iter().zip(step.carried) {
+            for (value, earlier) in row.iter_mut().zip(before) {
+                *value += share * earlier;
+            }
+        }
+        self.before.swap(0, 1);
+        self.before[0].clear();
+        self.before[0].extend_from_slice(row);
+    }
 }
 
 /// What is known of where the one root of an increasing equation lies.
@@ -75,10 +103,20 @@ impl<'a> March<'a> {
         for acting in effects {
             has[index(acting.effect.place())] = true;
         }
+        // Without such effects an operator beyond the input's range is an elastic one: the
+        // dictionary has that already.
+        let input_channel = match operators.form {
+            Form::Play => Place::ForceChannel,
+            Form::Stop => Place::DisplacementChannel,
+        };
+        let thresholds = match has[index(Place::SlipLimit)] || has[index(input_channel)] {
+            true => &operators.thresholds,
+            false => operators.within(),
+        };
         March {
             operators,
             elastic: coefficients[0],
-            bank: Bank::new(&operators.thresholds, operators.spread(&coefficients[1..])),
+            bank: Bank::new(thresholds, operators.spread(&coefficients[1..])),
             effects,
             memories: effects
                 .iter()
@@ -93,9 +131,8 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Row of the dictionary at the last accepted sample: what the judged channel gains per unit
-    /// of each coefficient, the elastic one first.
-    pub fn row(&self, step: Step, row: &mut [f64]) {
+    /// What the judged channel gains at once per unit of each coefficient, the elastic one first.
+    fn row(&self, step: Step, row: &mut [f64]) {
         row[0] = step.share
             * match self.operators.form {
                 Form::Play => self.network_force(),
@@ -155,7 +192,7 @@ impl<'a> March<'a> {
         if !self.has[index(Place::BesideJoint)] {
             return (0.0, 0.0, 0.0);
         }
-        let (velocity, per_displacement) = self.velocity(displacement, step);
+        let (velocity, [per_displacement, ..]) = self.velocity(displacement, step);
         let mut sum = (0.0, 0.0);
         for acting in self.effects {
             if acting.effect.place() == Place::BesideJoint {
@@ -171,19 +208,34 @@ impl<'a> March<'a> {
         (sum.0, sum.1, velocity)
     }
 
-    /// Backward difference of second order where two earlier samples are known; also d rate / dU.
-    fn velocity(&self, displacement: f64, step: f64) -> (f64, f64) {
+    /// Backward difference of second order where two earlier samples are known; also d rate / dU,
+    /// for this sample and the two before it.
+    fn velocity(&self, displacement: f64, step: f64) -> (f64, [f64; 3]) {
         if step <= 0.0 {
-            return (self.last.velocity, 0.0);
+            return (self.last.velocity, [0.0; 3]);
         }
         let first = (displacement - self.last.displacement) / step;
         match self.earlier {
             Some((before, length)) if length > 0.0 => {
                 let previous = (self.last.displacement - before) / length;
                 let weight = step / (step + length);
-                (first + weight * (first - previous), (1.0 + weight) / step)
+                let (own, oldest) = ((1.0 + weight) / step, weight / length);
+                let rate = first + weight * (first - previous);
+                (rate, [own, -own - oldest, oldest])
             }
-            _ => (first, 1.0 / step),
+            _ => (first, [1.0 / step, -1.0 / step, 0.0]),
+        }
+    }
+
+    /// −d force beside the joint / d earlier displacements, from its slope at this sample.
+    fn carried(&self, displacement: f64, step: f64, across_slope: f64) -> [f64; 2] {
+        if across_slope == 0.0 {
+            return [0.0; 2];
+        }
+        let (_, [own, before, oldest]) = self.velocity(displacement, step);
+        match own > 0.0 {
+            true => [-across_slope * before / own, -across_slope * oldest / own],
+            false => [0.0; 2],
         }
     }
 
@@ -242,6 +294,8 @@ impl<'a> March<'a> {
             let slope = joint_slope + across_slope * displacement_slope;
             answer = (slip, joint_force, displacement, velocity);
             let share = (1.0 / slope).clamp(0.0, 1.0);
+            let carried = self.carried(displacement, step, across_slope);
+            let carried = carried.map(|c| c * displacement_slope * share);
             if !parallel
                 || error.abs() <= 1e-12 * (force.abs() + self.last.force.abs())
                 || round >= 60
@@ -251,6 +305,7 @@ impl<'a> March<'a> {
                     force,
                     displacement,
                     share,
+                    carried,
                 };
             }
             let next = bracket.next(trial, error, slope, 2.0 * error);
@@ -302,6 +357,7 @@ impl<'a> March<'a> {
                     force: joint_force + across,
                     displacement,
                     share,
+                    carried: [0.0; 2],
                 };
             }
             let next = bracket.next(trial, error, slope, error);

@@ -18,9 +18,11 @@ pub enum Form {
 pub struct Operators {
     /// Play or stop.
     pub form: Form,
-    /// Upper edges of the cells, increasing; the first cell starts at zero.
+    /// Upper edges of the cells within the range of the input, increasing; the first cell starts
+    /// at zero. [`BEYOND`] more lie above the last.
     pub edges: Vec<f64>,
-    /// `r_j` \[N\] for plays, `d_j` \[m\] for stops; [`SHARED`] per cell, increasing.
+    /// `r_j` \[N\] for plays, `d_j` \[m\] for stops; [`SHARED`] per cell, increasing, those of
+    /// the cells beyond the range last.
     pub thresholds: Vec<f64>,
 }
 
@@ -30,6 +32,14 @@ pub const SHARED: usize = 4;
 /// Count of cells: fine enough that the virgin curve errs by far less than the noise of any record
 /// (checked on noise-free records by the tests of this room).
 const COUNT: usize = 40;
+
+/// Cells beyond the range of the input, for effects that let operators slip which the input alone
+/// would not reach: limits that depend on direction, rate or history, and corrected inputs.
+pub const BEYOND: usize = 8;
+
+/// Ratio of the edges of neighbouring cells beyond the range: limits down to 0.4 of the virgin ones
+/// are covered.
+const WIDER: f64 = 1.12;
 
 impl Operators {
     /// Grid for an input whose largest magnitude is `range`.
@@ -57,8 +67,10 @@ impl Operators {
 
     pub(super) fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
         let mut from = 0.0;
-        let mut thresholds = Vec::with_capacity(edges.len() * SHARED);
-        for &to in &edges {
+        let mut thresholds = Vec::with_capacity((edges.len() + BEYOND) * SHARED);
+        let top = edges.last().copied().unwrap_or(0.0);
+        let beyond = (1..=BEYOND).map(|j| top * WIDER.powi(j as i32));
+        for to in edges.iter().copied().chain(beyond) {
             for part in 0..SHARED {
                 thresholds.push(from + (to - from) * (part as f64 + 0.5) / SHARED as f64);
             }
@@ -122,6 +134,11 @@ impl Operators {
 
     /// Count of columns: the elastic one and one per cell.
     pub fn columns(&self) -> usize {
-        self.edges.len() + 1
+        self.thresholds.len() / SHARED + 1
+    }
+
+    /// The thresholds that the input reaches by itself.
+    pub fn within(&self) -> &[f64] {
+        &self.thresholds[..self.edges.len() * SHARED]
     }
 }

@@ -2,6 +2,7 @@
 //! baseline is refitted with it. One pass of the dictionary serves a whole batch of effects.
 
 use super::fit::Fit;
+use super::march::Rows;
 use super::nonnegative::Normal;
 use super::problem::{Problem, Weighing};
 use crate::joint::effect::Acting;
@@ -56,8 +57,9 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
         let (_, measured) = problem.channels(k);
         let mut weighing = Weighing::new(record, size + batch.len() + 1);
         let mut row = vec![0.0; size + batch.len() + 1];
+        let mut rows = Rows::default();
         problem.pass(k, &current.coefficients, &acting, |i, march, step| {
-            march.row(step, &mut row[..columns]);
+            rows.next(march, step, &mut row[..columns]);
             row[columns + k] = 1.0;
             for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
                 *value = slope.values[k][i];

@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod noise;
+pub mod outliers;
 mod spectrum;
 pub mod split;
 pub mod thinned;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::gram::Gram;
 use crate::causes::{Cause, Scale};
+use crate::identify::march::Rows;
 use crate::identify::nonnegative::Normal;
 use crate::identify::problem::Weighing;
 use crate::identify::{Prediction, Problem};
@@ -166,8 +167,9 @@ pub fn products(problem: &Problem, coefficients: &[f64], extra: &[Vec<Vec<f64>>]
             let mut normal = Normal::new(size);
             let mut weighing = Weighing::new(&problem.records[k], size);
             let mut row = vec![0.0; size];
+            let mut rows = Rows::default();
             problem.pass(k, coefficients, &[], |i, march, step| {
-                march.row(step, &mut row[..columns]);
+                rows.next(march, step, &mut row[..columns]);
                 let values = row[columns..kept].iter_mut().zip(extra);
                 values.for_each(|(value, column)| *value = column[k][i]);
                 row[kept + k] = 1.0;

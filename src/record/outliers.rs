@@ -1,0 +1,134 @@
+//! Samples that stand alone: a digit lost on the way, a spark in the cable, a jolt of the drive.
+
+/// What the neighbours on one side say of a sample: their mean, or the line through them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Neighbours {
+    /// For residuals, that vary about a level.
+    Level,
+    /// For channels, that go on as they went.
+    Line,
+}
+
+/// Samples next to the judged one that take no part: what stands alone may be a few samples wide.
+const APART: usize = 2;
+
+/// Samples of one side that are asked.
+const ASKED: usize = 4;
+
+/// Typical deviations beyond which a sample stands alone. Of a million normal ones none does (test
+/// below), and a fourteenfold outlier does.
+const ALONE: f64 = 9.0;
+
+/// Share of the samples above which the channel is like that.
+const FEW: f64 = 0.03;
+
+/// Samples about a judged one whose deviations are compared with its own.
+const AROUND: usize = 12;
+
+/// Samples that both sides foretell to lie elsewhere, in the same direction, by more than
+/// deviations scatter in the record and about the sample; with what their sides say instead.
+///
+/// A kink (reversal of a triangle, onset of contact) is foretold by one side and stays. Empty where
+/// more than [`FEW`] of the samples would be struck out.
+pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
+    let reach = APART + ASKED;
+    let count = channel.len();
+    if count < 4 * reach + 2 * AROUND {
+        return Vec::new();
+    }
+    let judged = reach..count - reach;
+    let sides: Vec<(f64, f64)> = judged
+        .clone()
+        .map(|i| {
+            let left = foretold(|j| channel[i - APART - 1 - j], neighbours);
+            let right = foretold(|j| channel[i + APART + 1 + j], neighbours);
+            (left, right)
+        })
+        .collect();
+    let deviations: Vec<f64> = judged
+        .clone()
+        .zip(&sides)
+        .map(|(i, (left, right))| {
+            let (left, right) = (channel[i] - left, channel[i] - right);
+            match left * right > 0.0 {
+                true => left.signum() * left.abs().min(right.abs()),
+                false => 0.0,
+            }
+        })
+        .collect();
+    // Half of the deviations are zero by construction where the channel is noise.
+    let typical = quantile(deviations.iter().map(|d| d.abs()).collect(), 0.75);
+    let found: Vec<(usize, f64)> = (0..deviations.len())
+        .filter(|&k| deviations[k].abs() > ALONE * typical)
+        .filter(|&k| {
+            let (from, to) = (k.saturating_sub(AROUND), (k + AROUND + 1).min(deviations.len()));
+            let about: Vec<f64> = (from..to)
+                .filter(|j| j.abs_diff(k) > APART)
+                .map(|j| deviations[j].abs())
+                .collect();
+            deviations[k].abs() > ALONE * quantile(about, 0.75)
+        })
+        .map(|k| (k + reach, 0.5 * (sides[k].0 + sides[k].1)))
+        .collect();
+    match found.len() as f64 > FEW * count as f64 {
+        true => Vec::new(),
+        false => found,
+    }
+}
+
+/// Value at the judged sample from those of one side, the nearest first.
+fn foretold(at: impl Fn(usize) -> f64, neighbours: Neighbours) -> f64 {
+    let mean = (0..ASKED).map(&at).sum::<f64>() / ASKED as f64;
+    if neighbours == Neighbours::Level {
+        return mean;
+    }
+    let middle = 0.5 * (ASKED - 1) as f64;
+    let (mut along, mut spread) = (0.0, 0.0);
+    for j in 0..ASKED {
+        let from_middle = j as f64 - middle;
+        along += from_middle * at(j);
+        spread += from_middle * from_middle;
+    }
+    mean - along / spread * (middle + (APART + 1) as f64)
+}
+
+fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let place = (share * (values.len().max(1) - 1) as f64).round() as usize;
+    values.get(place).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// Nearly normal noise of unit variance: the sum of twelve uniform numbers.
+    fn normal(random: &mut ChaCha8Rng) -> f64 {
+        (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
+    }
+
+    #[test]
+    fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        for neighbours in [Neighbours::Level, Neighbours::Line] {
+            let mut channel: Vec<f64> = (0..1_000_000).map(|_| normal(&mut random)).collect();
+            assert_eq!(outliers(&channel, neighbours), Vec::new());
+            channel[777] += 25.0;
+            channel[778] += 20.0;
+            let found: Vec<usize> = outliers(&channel, neighbours).iter().map(|o| o.0).collect();
+            assert_eq!(found, [777, 778]);
+        }
+        let triangle: Vec<f64> = (0..4000)
+            .map(|i| ((i % 200) as f64 - 100.0).abs() + 0.01 * normal(&mut random))
+            .collect();
+        assert_eq!(outliers(&triangle, Neighbours::Line), Vec::new());
+        let mut sine: Vec<f64> = (0..4000).map(|i| (0.06 * i as f64).sin()).collect();
+        assert_eq!(outliers(&sine, Neighbours::Line), Vec::new());
+        sine[1234] += 0.5;
+        let found = outliers(&sine, Neighbours::Line);
+        assert_eq!(found.len(), 1);
+        assert!((found[0].1 - (0.06_f64 * 1234.0).sin()).abs() < 0.1);
+    }
+}
