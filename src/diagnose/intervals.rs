@@ -2,8 +2,8 @@
 
 use crate::causes::{Scale, find};
 use crate::identify::interval::student_95;
-use crate::identify::scatter::{STRETCHES_OF_FACTOR, scatter};
-use crate::identify::{Fit, Problem, refit};
+use crate::identify::linearised::STRETCHES_OF_FACTOR;
+use crate::identify::{Fit, Problem, refit, scatter};
 
 /// Values and deviations of one law, and how likely it is among the laws compared.
 struct Reading {
@@ -56,7 +56,7 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
 fn reading(problem: &Problem, fit: &Fit, fall: f64) -> Reading {
     Reading {
         values: fit.effects.iter().map(|a| a.values.clone()).collect(),
-        deviations: scatter(problem, fit).deviations,
+        deviations: scatter(problem, fit),
         log_likelihood: 0.5 * fall,
     }
 }

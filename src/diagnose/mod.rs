@@ -6,7 +6,9 @@ pub mod experiment;
 pub mod findings;
 pub mod gain;
 pub mod intervals;
+pub mod joint_parameters;
 pub mod prepare;
+mod probability;
 pub mod search;
 pub mod structure;
 mod tested;
@@ -136,8 +138,18 @@ fn assemble(
         chi,
     );
     let causes = named_causes(bench, &found, &whole);
-    let candidates = candidates(bench, &found, &before);
+    let left = match verdict {
+        Verdict::Clean => 0.0,
+        _ if structure_before.share > 0.0 => {
+            (structure_after.share / structure_before.share).min(1.0)
+        }
+        _ => 0.0,
+    };
+    let candidates = candidates(bench, &found, &before, left);
     let joint = exported::joint(&bench.whole.operators, &whole)?;
+    let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
+    let mut notes = words::notes(records, bench);
+    notes.extend(said);
     let unit = match bench.whole.operators.form {
         Form::Play => "m",
         Form::Stop => "N",
@@ -158,13 +170,7 @@ fn assemble(
         extended: gain::errors(bench, &after),
         gain,
         unexplained: Unexplained {
-            share: match verdict {
-                Verdict::Clean => 0.0,
-                _ if structure_before.share > 0.0 => {
-                    (structure_after.share / structure_before.share).min(1.0)
-                }
-                _ => 0.0,
-            },
+            share: left,
             places: match verdict {
                 Verdict::Clean | Verdict::Explained => Vec::new(),
                 _ => words::places(bench, &structure_after),
@@ -172,8 +178,8 @@ fn assemble(
         },
         not_identifiable: words::not_identifiable(records),
         next_experiment: None,
-        joint_parameters: words::joint_parameters(&joint),
-        notes: words::notes(records, bench),
+        joint_parameters,
+        notes,
         joint,
         curves: curves::curves(bench, &before, &after),
         outlook: experiment::Outlook::default(),
@@ -225,24 +231,24 @@ fn kind(name: &str) -> String {
     .to_string()
 }
 
-/// The whole catalogue with evidence, probability (against each other and none, prior even) and
-/// what each alone would do to the held-out error.
+/// The whole catalogue with evidence, probability (against each other, none and what is not listed)
+/// and what each alone would do to the held-out error.
 fn candidates(
     bench: &Bench,
     found: &Found,
     before: &[crate::identify::Prediction],
+    left: f64,
 ) -> Vec<Candidate> {
-    let highest = found.trials.iter().fold(0.0_f64, |a, t| a.max(t.evidence));
-    let weight = |evidence: f64| (0.5 * (evidence - highest)).exp();
-    let total: f64 = weight(0.0) + found.trials.iter().map(|t| weight(t.evidence)).sum::<f64>();
+    let probabilities = probability::probabilities(found, left);
     let mut all: Vec<Candidate> = found
         .trials
         .iter()
-        .map(|trial| Candidate {
+        .zip(probabilities)
+        .map(|(trial, probability)| Candidate {
             name: trial.cause.name().to_string(),
             kind: kind(trial.cause.name()),
             evidence: 0.5 * trial.evidence,
-            probability: weight(trial.evidence) / total,
+            probability,
             lambda_sep: None,
             held_out_gain: (trial.evidence > 0.0)
                 .then(|| gain::ratio(bench, before, &trial.fit.predict(&bench.train)).0),
