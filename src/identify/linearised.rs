@@ -4,7 +4,7 @@
 use super::fit::{Slope, slopes};
 use super::march::Rows;
 use super::nonnegative::Normal;
-use super::problem::{Prediction, Problem, Weighing};
+use super::problem::{Prediction, Prepared, Problem, Weighing};
 use crate::joint::effect::Acting;
 
 /// Counts of equal stretches the samples are cut into.
@@ -18,7 +18,7 @@ pub const STRETCHES_OF_FACTOR: usize = 24;
 
 /// Share of the noise's variance below which no law is claimed to be right: a tenth of its rms, to
 /// which the grid of thresholds is made.
-const RIGHT_TO: f64 = 0.01;
+pub const RIGHT_TO: f64 = 0.01;
 
 /// One Gauss–Newton step from a fit. Unknowns are the coefficients of the dictionary, the offsets
 /// of the records, and the moves of the effects' values in units of their differences' steps.
@@ -152,7 +152,7 @@ impl<'a> Linearised<'a> {
             let stretches = score.chunks(finest / count);
             stretches.map(|s| s.iter().sum::<f64>().powi(2)).sum()
         };
-        let lasting = RIGHT_TO * self.independent() / finest as f64;
+        let lasting = lasting(self.problem, RIGHT_TO);
         let least = (self.misfit / rows as f64).max(1.0);
         scores
             .iter()
@@ -163,15 +163,15 @@ impl<'a> Linearised<'a> {
             })
             .collect()
     }
+}
 
-    /// Count of independent samples: correlated neighbours count as fewer.
-    fn independent(&self) -> f64 {
-        let records = self.problem.records.iter();
-        records
-            .map(|r| {
-                let rows = r.weight.iter().filter(|w| **w > 0.0).count() as f64;
-                rows * (1.0 - r.autoregression) / (1.0 + r.autoregression)
-            })
-            .sum()
-    }
+/// Variance, over that of white noise, that a misfit of so large a share of the noise's variance
+/// adds when it lasts for the shortest of the stretches. Correlated neighbours count as fewer samples.
+pub fn lasting(problem: &Problem, share: f64) -> f64 {
+    let independent = |r: &Prepared| {
+        let rows = r.weight.iter().filter(|w| **w > 0.0).count() as f64;
+        rows * (1.0 - r.autoregression) / (1.0 + r.autoregression)
+    };
+    let samples: f64 = problem.records.iter().map(independent).sum();
+    share * samples / STRETCHES[STRETCHES.len() - 1] as f64
 }
