@@ -5,6 +5,7 @@ mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
+mod mains_phase;
 pub mod prepare;
 pub mod search;
 pub mod structure;
