@@ -79,7 +79,10 @@ fn line(time: &[f64], residual: &[f64], frequency: f64) -> (f64, f64) {
         cosine += r * c;
     }
     let count = time.len().max(1) as f64;
-    (2.0 * (sine * sine + cosine * cosine) / count, cosine.atan2(sine))
+    (
+        2.0 * (sine * sine + cosine * cosine) / count,
+        cosine.atan2(sine),
+    )
 }
 
 #[cfg(test)]

@@ -61,7 +61,10 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
     let found: Vec<(usize, f64)> = (0..deviations.len())
         .filter(|&k| deviations[k].abs() > ALONE * typical)
         .filter(|&k| {
-            let (from, to) = (k.saturating_sub(AROUND), (k + AROUND + 1).min(deviations.len()));
+            let (from, to) = (
+                k.saturating_sub(AROUND),
+                (k + AROUND + 1).min(deviations.len()),
+            );
             let about: Vec<f64> = (from..to)
                 .filter(|j| j.abs_diff(k) > APART)
                 .map(|j| deviations[j].abs())
