@@ -5,8 +5,8 @@ use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::sincos;
 use crate::joint::parameters::Parameter;
 
-/// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`, t from the
-/// middle of the record so that phase and frequency do not mix.
+/// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`; of
+/// several records the clocks are set so that one phase serves all.
 pub struct MainsHum;
 
 static PARAMETERS: [Parameter; 3] = [
@@ -18,7 +18,7 @@ static PARAMETERS: [Parameter; 3] = [
         upper: 1.0,
         vanishes_at: Some(0.0),
         neutral: None,
-        meaning: "amplitude of the part that is zero in the middle of the record",
+        meaning: "amplitude of the part that is zero at time zero of the first record",
     },
     Parameter {
         name: "cosine",
@@ -28,7 +28,7 @@ static PARAMETERS: [Parameter; 3] = [
         upper: 1.0,
         vanishes_at: Some(0.0),
         neutral: None,
-        meaning: "amplitude of the part that is largest in the middle of the record",
+        meaning: "amplitude of the part that is largest at time zero of the first record",
     },
     Parameter {
         name: "frequency",
@@ -53,12 +53,8 @@ impl Effect for MainsHum {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let (Some(start), Some(end)) = (truth.time.first(), truth.time.last()) else {
-            return Vec::new();
-        };
-        let middle = 0.5 * (start + end);
         let hum = |t: &f64| {
-            let (sine, cosine) = sincos(std::f64::consts::TAU * values[2] * (t - middle));
+            let (sine, cosine) = sincos(std::f64::consts::TAU * values[2] * t);
             values[0] * sine + values[1] * cosine
         };
         truth.time.iter().map(hum).collect()
@@ -102,14 +98,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_sine_of_its_frequency_about_the_middle() {
+    fn it_is_the_sine_of_its_frequency_over_time() {
         let truth = Trajectory {
-            time: (0..=40).map(|i| 3.0 + 0.001 * f64::from(i)).collect(),
+            time: (0..=40).map(|i| -0.02 + 0.001 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 41],
         };
         let added = MainsHum.channel(&[2.0, 0.5, 50.0], &truth);
-        // The middle, a quarter and a half period of 20 ms later.
+        // Time zero, a quarter and a half period of 20 ms later.
         for (sample, expected) in [(20, 0.5), (25, 2.0), (30, -0.5)] {
             assert!((added[sample] - expected).abs() < 1e-9);
         }

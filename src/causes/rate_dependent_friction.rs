@@ -6,7 +6,7 @@ use crate::joint::elementary::{expm1, log1p};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + |v|/v_0)`, where v follows u̇ over
-/// a memory of slip, see [`follow_rate`].
+/// a short memory, see [`follow_rate`].
 pub struct RateDependentFriction;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -32,26 +32,27 @@ static PARAMETERS: [Parameter; 2] = [
     },
 ];
 
-/// Slip over which contacts take on a new rate, as a share of the widest slip so far.
-const RENEWAL: f64 = 0.1;
+/// Slip over which contacts take on a new rate at the fastest slip so far, as a share of the widest.
+const RENEWAL: f64 = 0.05;
 
 /// Numbers of history that [`follow_rate`] keeps.
-pub(super) const RATE_MEMORY: usize = 3;
+pub(super) const RATE_MEMORY: usize = 4;
 
-/// Takes a sample into the history `[v, lowest u, highest u]`: v approaches the slip rate over a
-/// slip of [`RENEWAL`], `v += (u̇ − v)(1 − exp(−|Δu|/d))`.
+/// Takes a sample into the history `[v, lowest u, highest u, fastest |u̇|]`: v approaches the slip
+/// rate within the time that the fastest slip so far takes for a distance d of [`RENEWAL`],
+/// `v += (u̇ − v)(1 − exp(−|u̇|_max Δt / d))`.
 ///
-/// Contacts renew themselves over a slip distance (Dieterich's memory); the limit that this sample
-/// answers with is known only in the next one, and without a memory it would swing from step to
-/// step.
+/// Contacts renew themselves over a slip distance (Dieterich's memory) and forget while they rest;
+/// the limit that this sample answers with is known only in the next one, and without a memory, or
+/// with one that a surge of slip shortens, it would swing from step to step.
 pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
-    if let [rate, low, high] = memory {
+    if let [rate, low, high, fastest] = memory {
         *low = low.min(now.slip);
         *high = high.max(now.slip);
+        *fastest = fastest.max(now.slip_rate.abs());
         let renewal = RENEWAL * (*high - *low);
         if renewal > 0.0 {
-            let renewed = -expm1(-(now.slip_rate * now.step).abs() / renewal);
-            *rate += renewed * (now.slip_rate - *rate);
+            *rate -= expm1(-*fastest * now.step / renewal) * (now.slip_rate - *rate);
         }
     }
 }
@@ -93,7 +94,7 @@ impl Cause for RateDependentFriction {
                 "sensor_delay",
             ],
             separated_by: "Two decades of frequency: steps are equal per decade here and proportional to frequency with a dashpot, and the effect is absent below slip; weakening has the other sign.",
-            formula: "phi = phi_0 [1 + a ln(1 + |v|/v_0)], v following du/dt over a slip distance",
+            formula: "phi = phi_0 [1 + a ln(1 + |v|/v_0)], v following du/dt over a short memory",
             source: "Direct effect of rate-and-state friction, Dieterich 1979 and Ruina 1983, regularised at rest.",
         }
     }

@@ -42,8 +42,9 @@ static PARAMETERS: [Parameter; 3] = [
 ];
 
 /// Share of a record's dissipated energy over which friction that falls has to settle: what takes
-/// longer is lost preload.
-const SOON: f64 = 0.12;
+/// longer is lost preload. The span of lost preload begins below it: between the two either word
+/// fits.
+const SOON: f64 = 0.2;
 
 impl Effect for RunningIn {
     fn name(&self) -> &'static str {

@@ -7,7 +7,7 @@ use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−|v|/v_s)]`, where v follows u̇
-/// over a memory of slip.
+/// over a short memory.
 pub struct VelocityWeakening;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -70,7 +70,7 @@ impl Cause for VelocityWeakening {
                 "creep",
             ],
             separated_by: "The same stroke at several frequencies: a drop after breakaway follows slid distance and stays the same, weakening follows the rate; growth with rate has the other sign.",
-            formula: "phi = phi_0 [1 - a (1 - exp(-|v|/v_s))], v following du/dt over a slip distance",
+            formula: "phi = phi_0 [1 - a (1 - exp(-|v|/v_s))], v following du/dt over a short memory",
             source: "Stribeck curve as in Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994.",
         }
     }

@@ -67,13 +67,21 @@ pub fn joint_parameters(
             estimates.push(Estimate {
                 name: told.name.to_string(),
                 value: told.value,
-                unit: told.unit.clone(),
+                unit: unit(told, &found),
                 interval: Some(widened(told, interval, wider)),
             });
         }
     }
     estimates.push(at_least);
     (estimates, None)
+}
+
+/// The unit as it is shown; that of ϑ depends on χ.
+fn unit(told: &Estimated, found: &FamilyFit) -> String {
+    match told.name {
+        "dissipation_coefficient" => format!("J/N^({:.3})", 3.0 + found.shape.exponent),
+        _ => told.unit.clone(),
+    }
 }
 
 /// An interval `factor` times as wide, in the logarithm where the number is a coefficient.

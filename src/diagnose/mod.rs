@@ -7,6 +7,7 @@ pub mod findings;
 pub mod gain;
 pub mod intervals;
 pub mod joint_parameters;
+mod mains_phase;
 pub mod prepare;
 mod probability;
 pub mod search;

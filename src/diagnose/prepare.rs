@@ -1,5 +1,6 @@
 //! Before any fit: the form the records are judged in, their noise, what is held out.
 
+use super::mains_phase;
 use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
@@ -92,6 +93,9 @@ pub fn prepare(records: &[Record]) -> Bench {
     let (mut whole, mut first) = fitted(problem);
     if strike_residuals(&mut whole, &first, &mut struck) {
         first = baseline(&whole);
+    }
+    if records.iter().all(|r| r.time.is_some()) {
+        mains_phase::align(&mut whole, &first);
     }
     let noise = noise(&whole, &first);
     let held: Vec<Vec<bool>> = (0..whole.records.len())

@@ -122,7 +122,9 @@ fn rivals(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> (Vec<Vec<S
         let scale = dispersion(problem, best);
         let brought = without.misfit - best.misfit;
         evidence.push(brought / scale);
-        let unseen = (NEARLY * brought).min(NEGLIGIBLE * problem.rows() as f64 * scale);
+        let rows = problem.rows() as f64;
+        let left = (best.misfit - rows - SCATTER * (2.0 * rows).sqrt()).max(0.0);
+        let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
         let rivals = anew
             .as_deref()
             .unwrap_or(first)
@@ -142,6 +144,10 @@ const MARGIN: f64 = 10.0;
 
 /// Share of what the named cause brings by which a rival may fall short of it and still be listed:
 /// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
-/// causes apart no better than their laws are true. What the test of structure would not see of a
-/// law that is only nearly right, [`NEGLIGIBLE`] of the noise, bounds it.
+/// causes apart no better than their laws are true. What the named cause leaves beyond the scatter of
+/// noise bounds it, for a law that leaves nothing is right, and so does what the test of structure
+/// would not see, [`NEGLIGIBLE`] of the noise.
 pub const NEARLY: f64 = 0.01;
+
+/// Standard deviations by which a sum of squares of noise alone may exceed its mean.
+const SCATTER: f64 = 2.0;

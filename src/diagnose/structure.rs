@@ -9,7 +9,8 @@ use crate::record::cycles::{alike, cycles};
 pub struct Structure {
     /// Variance that means over bins share, over the variance within bins: zero for noise.
     pub share: f64,
-    /// Standard deviations by which the bins' means exceed what noise gives them.
+    /// Standard deviations by which the bins' means exceed what noise gives them, none counted for
+    /// more than [`LOUDEST`].
     pub significance: f64,
     /// Bins that stand out most: record, first and last sample, deviation over its own error.
     pub places: Vec<Place>,
@@ -30,6 +31,10 @@ pub struct Place {
 
 /// Phases a cycle is cut into.
 const PHASES: usize = 16;
+
+/// Square of the standard deviations that one bin may count for: structure is what many say, and a
+/// peak that fell between two samples is not.
+const LOUDEST: f64 = 25.0;
 
 /// Bins the whitened residual by record × load level × phase (what repeats with the load), and by
 /// record × cycle (what wanders from cycle to cycle), and compares the means with the scatter
@@ -74,6 +79,10 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     let between: f64 = bins.iter().map(|b| b.sum * b.sum / b.count).sum::<f64>() / variance;
     let count = bins.len() as f64;
     let excess = between - count;
+    let heard: f64 = bins
+        .iter()
+        .map(|b| (b.sum * b.sum / b.count / variance).min(LOUDEST))
+        .sum();
     let mut places: Vec<Place> = bins
         .iter()
         .map(|b| Place {
@@ -87,7 +96,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     places.truncate(5);
     Structure {
         share: (excess / total).max(0.0),
-        significance: excess / (2.0 * count).sqrt(),
+        significance: (heard - count) / (2.0 * count).sqrt(),
         places,
     }
 }

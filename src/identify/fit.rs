@@ -7,7 +7,7 @@ use super::nonnegative::Normal;
 use super::operators::Form;
 use super::problem::{Prediction, Problem, Weighing};
 use super::series;
-use crate::joint::effect::Acting;
+use crate::joint::effect::{Acting, Place};
 
 /// A fitted model.
 #[derive(Debug, Clone, PartialEq)]
@@ -198,6 +198,8 @@ fn refine(
         .map(|a| vec![f64::INFINITY; a.values.len()])
         .collect();
     let mut damping = 0.0;
+    // A limit that follows what the joint does makes the answer less than linear in the dictionary.
+    let implicit = effects.iter().any(|a| a.effect.place() == Place::SlipLimit);
     for round in 0..steps.most {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);
         let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
@@ -214,6 +216,10 @@ fn refine(
         for _ in 0..TRIALS {
             let mut damped = normal.clone();
             (first..normal.size).for_each(|i| damped.damp(i, damping));
+            if implicit && damping > 0.0 {
+                let at = coefficients.iter().enumerate();
+                at.for_each(|(i, &c)| damped.anchor(i, damping, c));
+            }
             let mut solution = damped.solve(&bounded);
             if hold(&mut damped, &effects, &slopes, &solution[first..], first) {
                 solution = damped.solve(&bounded);

@@ -70,6 +70,14 @@ impl Normal {
         self.gram[i * self.size + i] *= 1.0 + share;
     }
 
+    /// Makes moves of unknown `i` away from where it is dearer by a share of its own square.
+    pub fn anchor(&mut self, i: usize, share: f64, at: f64) {
+        let more = share * self.gram[i * self.size + i];
+        self.gram[i * self.size + i] += more;
+        self.right[i] += more * at;
+        self.square += more * at * at;
+    }
+
     /// Keeps unknown `i` at zero.
     pub fn hold(&mut self, i: usize) {
         for j in 0..self.size {
