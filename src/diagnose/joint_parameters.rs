@@ -15,6 +15,9 @@ const POINTS: usize = 60;
 /// family, and a number of the family says nothing of it.
 const OTHER: f64 = 1.1;
 
+/// The same before the family is fitted to the records, by the virgin curve alone.
+const FAR: f64 = 1.5;
+
 /// Parameters of the joint with their 95 % intervals, and what is to be said of them.
 ///
 /// The stiffness at small amplitude is the dictionary's own ([`initial_stiffness`]). Exponent and loss
@@ -45,20 +48,16 @@ pub fn joint_parameters(
         unit: "N".to_string(),
         interval: Some((largest, f64::INFINITY)),
     };
-    let Some(found) = of_family(problem.operators.form, joint, &records) else {
-        estimates.push(at_least);
-        return (estimates, None);
-    };
-    let more = found.rms / left(problem, fit);
-    if more > OTHER {
+    let least = left(problem, fit);
+    let found = of_family(problem.operators.form, joint, &records, FAR * least);
+    let Some(found) = found.filter(|f| f.rms <= OTHER * least) else {
         estimates.push(at_least);
         return (
             estimates,
-            Some(format!(
-                "The four-parameter family leaves {more:.2} times the misfit of the joint of any density: the exponent of a power law does not describe this joint."
-            )),
+            Some("No joint of the four-parameter family comes near the joint of any density that these records identify: the exponent of a power law does not describe it.".to_string()),
         );
-    }
+    };
+    let more = found.rms / least;
     // What the family leaves more than any density does is no noise, and lasts.
     let wider = (1.0 + lasting(problem, more.powi(2).max(1.0) - 1.0 + RIGHT_TO)).sqrt();
     for told in &found.estimates {
@@ -158,7 +157,7 @@ fn left(problem: &Problem, fit: &Fit) -> f64 {
 }
 
 /// The family's joint of these records, from the virgin curve of the dictionary's.
-fn of_family(form: Form, joint: &Joint, records: &[Record]) -> Option<FamilyFit> {
+fn of_family(form: Form, joint: &Joint, records: &[Record], most: f64) -> Option<FamilyFit> {
     let drive = match form {
         Form::Play => Drive::Force,
         Form::Stop => Drive::Displacement,
@@ -182,5 +181,5 @@ fn of_family(form: Form, joint: &Joint, records: &[Record]) -> Option<FamilyFit>
     }
     let near = family::fit_curve(&displacement, &force, drive).ok()?;
     let records: Vec<&Record> = records.iter().collect();
-    family::fit_from(&records, &near.shape, drive).ok()
+    family::fit_from(&records, &near.shape, drive, most).ok()
 }

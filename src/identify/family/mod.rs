@@ -86,6 +86,8 @@ const DEEP: f64 = 0.3;
 /// its yield displacement.
 const FULL: f64 = 0.17;
 const LEAST_SAMPLES: usize = 20;
+/// Samples judged where a fit is one of many numbers of a diagnosis.
+const FEW_SAMPLES: usize = 3000;
 
 /// Which channel to prescribe: force, unless the deepest curve goes near full slip.
 pub fn drive_for(seed: &Seed) -> Drive {
@@ -131,9 +133,19 @@ pub fn fit_curve(
 /// [`fit_curve`] for a joint of the dictionary fitted to the same records.
 ///
 /// # Errors
-/// [`FamilyError`].
-pub fn fit_from(records: &[&Record], near: &Shape, drive: Drive) -> Result<FamilyFit, FamilyError> {
-    let target = Target::of_records(records, drive);
+/// [`FamilyError::NoJoint`] where the shape leaves more than `most` rms of the judged channel.
+pub fn fit_from(
+    records: &[&Record],
+    near: &Shape,
+    drive: Drive,
+    most: f64,
+) -> Result<FamilyFit, FamilyError> {
+    let target = Target::of_some(records, drive, FEW_SAMPLES);
+    let left = target.residuals(near).ok_or(FamilyError::NoJoint)?;
+    let square = left.iter().map(|r| r * r).sum::<f64>() / left.len().max(1) as f64;
+    if target.scale() * square.sqrt() > most {
+        return Err(FamilyError::NoJoint);
+    }
     let start = match drive {
         Drive::Force => near.by_loss(target.largest_way()),
         Drive::Displacement => *near,

@@ -30,8 +30,13 @@ pub struct Target {
 impl Target {
     /// The records under one drive: displacement judged under force, force under displacement.
     pub fn of_records(records: &[&Record], drive: Drive) -> Target {
+        Target::of_some(records, drive, MOST_SAMPLES)
+    }
+
+    /// The same, judged at no more than so many samples.
+    pub fn of_some(records: &[&Record], drive: Drive, most: usize) -> Target {
         let count: usize = records.iter().map(|r| r.len()).sum();
-        let stride = count.div_ceil(MOST_SAMPLES).max(1);
+        let stride = count.div_ceil(most).max(1);
         let channels = records.iter().map(|r| match drive {
             Drive::Force => (r.force.as_slice(), r.displacement.as_slice()),
             Drive::Displacement => (r.displacement.as_slice(), r.force.as_slice()),
