@@ -132,6 +132,7 @@ class Staged:
     sampled: Sampled
     level: float
     noise: Noise
+    noise_asked: str | None  # kind; None: as drawn
     rng: np.random.Generator
     refused: list
 
@@ -190,7 +191,7 @@ def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, 
             refused.append(str(reason))
             continue
         head = (seed, number, (name,), ratio, (found,), scene, share, gauge, effect, sampled)
-        return Staged(*head, level, kind, rng, refused)
+        return Staged(*head, level, kind, noise, rng, refused)
     raise RuntimeError(f"case {number} ({name}): {refused}")
 
 
@@ -213,6 +214,7 @@ def record(staged):
         "refit_floor_over_noise": staged.gauge.floor / staged.rms,
         "noise": {
             "kind": staged.noise.kind,
+            "asked": staged.noise_asked,
             "response_rms": staged.rms,
             "realised_rms": float(np.sqrt(np.mean(np.concatenate(heard) ** 2))),
             "of_response_rms": level,

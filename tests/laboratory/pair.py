@@ -101,7 +101,7 @@ def stage_pair(seed, number, names=None, ratio=2.0, noise=None):
             refused.append(str(reason))
             continue
         head = (seed, number, names, ratio, tuple(found), scene, share, gauge, both, sampled)
-        return Staged(*head, level, kind, rng, refused), left
+        return Staged(*head, level, kind, noise, rng, refused), left
     raise RuntimeError(f"case {number} ({' and '.join(names)}): {refused}")
 
 
