@@ -20,6 +20,7 @@ from .noise import noise
 from .refit import Baseline
 from .scene import Scene
 from .score import Unreadable, judge, matrix, share, totals
+from .self_test_measured import Card, Kinds, Pairs, Quality, Resuming  # noqa: F401
 
 
 def uniform_joint(n=400, series=2.0):
