@@ -115,7 +115,7 @@ def mark(effect, said, measurement="power", strength=1.0, **more):
 def small_scene(seed):
     rng = np.random.default_rng(seed)
     joint = draw_joint(rng)
-    history = loads.stepped(rng, [1.0], 60.0, "sine", False, 0.0)
+    history = loads.stepped(rng, [3.0], 60.0, "sine", False, 0.0)
     return Scene.stage(joint, [history], True, 0.7 * joint.full_slip), rng
 
 
@@ -246,16 +246,16 @@ class Resuming(unittest.TestCase):
     def test_the_bench_draws_asks_and_judges(self):
         with tempfile.TemporaryDirectory() as folder:
             finder = Path(folder) / "finder"
-            said = diagnosis("displacement_drift", judged="force")
+            said = diagnosis("displacement_drift")
             finder.write_text(FINDER.format(python=sys.executable, said=said), encoding="utf-8")
             finder.chmod(0o755)
             bench = Bench(str(finder), folder, keep=False)
-            got = bench(Task(5, 2, ("displacement_drift",), (2.0, 2.0), "outliers"))
+            got = bench(Task(5, 7, ("displacement_drift",), (2.0, 2.0), "outliers"))
             self.assertIsNone(got["failed"])
             self.assertTrue(got["alone"])
             self.assertEqual((got["noise"], got["asked"]), ("outliers", [2.0, 2.0]))
             self.assertEqual(got["ranks"], {"displacement_drift": 1})
-            self.assertFalse((Path(folder) / "case-0002").exists())
+            self.assertFalse((Path(folder) / "case-0007").exists())
             json.dumps(got)
 
 
