@@ -111,8 +111,14 @@ def _worst(summary):
     return [f"Least often in the stated set at strengths 1 and 5: {', '.join(told)}.", ""]
 
 
-def block(summary):
-    """The README's block: tables, seed and finder."""
+def _drawings(folder):
+    names = {"power": "Power", "matrix": "Confusion", "reliability": "Reliability"}
+    links = [f"[{title}]({folder}/scorecard-{name}.svg)" for name, title in names.items()]
+    return [f"Drawn: {', '.join(links)}.", ""]
+
+
+def block(summary, figures=None):
+    """The README's block: tables, seed and finder; `figures` is the folder of the drawings."""
     cases = ", ".join(f"{n} {name.replace('_', ' ')}" for name, n in summary["cases"].items())
     lines = [""]
     if summary["by_strength"]:
@@ -124,6 +130,8 @@ def block(summary):
     if summary["pairs"]["by_kinds"]:
         lines += _pairs(summary)
     lines += _single_figures(summary)
+    if figures and summary["by_strength"]:
+        lines += _drawings(figures)
     missing = sum(len(v) for v in summary["not_drawn"].values())
     commit = f", commit {summary['commit']}" if summary["commit"] else ""
     lines.append(

@@ -94,7 +94,7 @@ def card(directory, output=None, commit=None, readme=None, figures=None):
     output.mkdir(parents=True, exist_ok=True)
     text = json.dumps(summary, indent=1) + "\n"
     (output / "scorecard.json").write_text(text, encoding="utf-8")
-    written = block(summary)
+    written = block(summary, figures)
     (output / "scorecard.md").write_text(written, encoding="utf-8")
     draw(summary, output)
     if figures:
