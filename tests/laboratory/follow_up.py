@@ -13,11 +13,12 @@ from scipy.interpolate import PchipInterpolator
 from . import csvfile, rig
 from .bench import Task, diagnose, run
 from .case import stage_case, write_case
+from .effects_instrument import FOLLOW_UP_FINE
 from .marks import Marks, fingerprint
 from .pair import stage_pair
 from .score import judge, print_totals, share
 
-FINE = 4  # steps of the rig between two samples
+FINE = FOLLOW_UP_FINE
 SI = {"force": "N", "length": "m", "swap": False}
 
 
