@@ -1,6 +1,7 @@
 """Command line of the virtual laboratory: python -m laboratory COMMAND."""
 
 import argparse
+import signal
 import sys
 import time
 
@@ -119,6 +120,8 @@ def _measured(asked, seed):
 def main(arguments=None):
     """Run one command; returns the exit status."""
     asked = _parser().parse_args(arguments)
+    # So that a run that is told to end takes its workers with it.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     seed = getattr(asked, "seed", None)
     seed = int(time.time()) if seed is None else seed
     try:

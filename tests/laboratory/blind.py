@@ -25,7 +25,8 @@ def blind_test(
     tasks = [Task(seed, j, (name,), span, noise) for j, name in enumerate(names)]
     lines = Path(directory) / "blind.jsonl"
     lines.unlink(missing_ok=True)
-    marked = run(tasks, Bench(iwan, directory, more), jobs, Marks(lines, seed, fingerprint(iwan)))
+    with Marks(lines, seed, fingerprint(iwan)) as known:
+        marked = run(tasks, Bench(iwan, directory, more), jobs, known)
     marks = [mark for mark in marked if "not_drawn" not in mark]
     not_drawn = [mark for mark in marked if "not_drawn" in mark]
     table, sums = matrix(marks), totals(marks)

@@ -188,7 +188,8 @@ def follow_ups(seed, cases, iwan, directory, effects, span=(1.0, 2.0), by_dummy=
     lines = Path(directory) / "follow_up.jsonl"
     lines.unlink(missing_ok=True)
     work = FollowUp(iwan, directory, by_dummy)
-    marks = run(tasks, work, jobs, Marks(lines, seed, fingerprint(iwan)), follow_up_said)
+    with Marks(lines, seed, fingerprint(iwan)) as known:
+        marks = run(tasks, work, jobs, known, follow_up_said)
     result = {
         "schema": "laboratory-follow-up/1",
         "seed": seed,

@@ -62,7 +62,8 @@ def measure(tasks, iwan, directory, jobs, more=()):
     name = tasks[0].measurement
     path = Path(directory) / f"{name}.jsonl"
     bench = Bench(iwan, str(Path(directory) / "scratch"), more, keep=False)
-    return run(tasks, bench, jobs, Marks(path, tasks[0].seed, fingerprint(iwan)))
+    with Marks(path, tasks[0].seed, fingerprint(iwan)) as marks:
+        return run(tasks, bench, jobs, marks)
 
 
 def follow(tasks, marks, iwan, directory, jobs):
@@ -76,8 +77,8 @@ def follow(tasks, marks, iwan, directory, jobs):
         return []
     path = Path(directory) / "follow_up.jsonl"
     work = FollowUp(iwan, str(Path(directory) / "scratch"), keep=False)
-    known = Marks(path, still[0].seed, fingerprint(iwan))
-    return run(still, work, jobs, known, follow_up_said)
+    with Marks(path, still[0].seed, fingerprint(iwan)) as known:
+        return run(still, work, jobs, known, follow_up_said)
 
 
 def rounds(seed, count, iwan, directory, jobs, only=None):

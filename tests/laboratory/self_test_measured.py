@@ -220,12 +220,14 @@ class Resuming(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             done, path = Path(folder) / "done", Path(folder) / "marks.jsonl"
             tasks = [Task(1, n, (str(done),)) for n in range(4)]
-            with contextlib.redirect_stdout(io.StringIO()):
-                run(tasks[:2], counted, 1, Marks(path, 1, "abc"), str)
+            with contextlib.redirect_stdout(io.StringIO()), Marks(path, 1, "abc") as marks:
+                run(tasks[:2], counted, 1, marks, str)
+                with self.assertRaises(Foreign):  # a second run at the same time
+                    Marks(path, 1, "abc")
             with path.open("a", encoding="utf-8") as out:
                 out.write('{"key": "cut sh')  # interrupted while writing
-            with contextlib.redirect_stdout(io.StringIO()) as told:
-                marks = run(tasks, counted, 1, Marks(path, 1, "abc"), str)
+            with contextlib.redirect_stdout(io.StringIO()) as told, Marks(path, 1, "abc") as known:
+                marks = run(tasks, counted, 1, known, str)
             self.assertIn("2 of 4 cases are already marked", told.getvalue())
             self.assertEqual([m["case"] for m in marks], [0, 1, 2, 3])
             self.assertEqual(sorted(done.read_text().split()), ["0", "1", "2", "3"])
@@ -356,9 +358,9 @@ class Card(unittest.TestCase):
         marks = {"power": power + [lost], "foreign": foreign, "clean": clean, "pairs": two}
         with tempfile.TemporaryDirectory() as folder:
             for name, some in marks.items():
-                kept = Marks(Path(folder) / f"{name}.jsonl", 7, "abc")
-                for j, one in enumerate(some):
-                    kept.add(str(j), one)
+                with Marks(Path(folder) / f"{name}.jsonl", 7, "abc") as kept:
+                    for j, one in enumerate(some):
+                        kept.add(str(j), one)
             readme = Path(folder) / "README.md"
             readme.write_text(f"before\n{MARKERS[0]}\nformer\n{MARKERS[1]}\nafter\n")
             summary, written = card(folder, None, "1234567", readme, Path(folder) / "figures")
