@@ -120,6 +120,10 @@ def run(tasks, work, jobs, marks, line=said):
                 marks.add(futures[done].key, mark)
                 print(line(mark), flush=True)
         except BaseException:
-            pool.shutdown(cancel_futures=True)
+            pool.shutdown(cancel_futures=True)  # what has begun is finished, and kept
+            for future, task in futures.items():
+                if not future.cancelled() and not future.exception():
+                    if task.key not in marks.known:
+                        marks.add(task.key, future.result())
             raise
     return [marks.known[task.key] for task in tasks]
