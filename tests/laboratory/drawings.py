@@ -3,6 +3,8 @@
 from pathlib import Path
 from xml.sax.saxutils import escape
 
+from .effects import FOREIGN
+
 CELL, LEFT, TOP, GAP = 22, 170, 150, 40
 RIGHT, WRONG = "35,110,60", "170,50,40"
 
@@ -45,8 +47,9 @@ def matrices(tables, path):
             y, total = top + TOP + i * CELL, max(sum(counts), 1)
             lines.append(_text(LEFT - 6, y + 15, row, 'text-anchor="end"'))
             for j, n in enumerate(counts):
-                hue = RIGHT if table["columns"][j] == row else WRONG
-                lines += _cell(LEFT + j * CELL, y, CELL, hue, n / total, n or "")
+                right = "unexplained" if row in FOREIGN else row
+                hue = RIGHT if table["columns"][j] == right else WRONG
+                lines += _cell(LEFT + j * CELL, y, CELL, hue, 0.7 * n / total, n or "")
         top += TOP + len(table["rows"]) * CELL + GAP
         wide = max(wide, LEFT + (len(table["columns"]) + 3) * CELL + 60)
     write(path, lines, wide, top)
@@ -79,7 +82,9 @@ def power(table, path):
                 one = row.get(strength, {}).get(mark)
                 if one and one["of"]:
                     x, words = LEFT + k * panel + j * step, f"{one['count']}/{one['of']}"
-                    lines += _cell(x, y, step, RIGHT, one["share"], words)
+                    # Half right is white; the text stays readable on the fullest shade.
+                    hue, shade = (RIGHT if one["share"] > 0.5 else WRONG), abs(one["share"] - 0.5)
+                    lines += _cell(x, y, step, hue, 1.2 * shade, words)
     write(path, lines, LEFT + len(PANELS) * panel, 90 + len(table) * CELL)
 
 
