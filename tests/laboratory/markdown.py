@@ -23,6 +23,8 @@ def _table(head, rows):
 def _strengths(summary):
     rows = []
     for strength, one in summary["by_strength"].items():
+        if not one["right_alone"]["of"]:  # effects outside the catalogue alone
+            continue
         marks = ("right_alone", "right_first", "in_stated_set", "top_1", "top_3")
         more = ("missed", "wrong_name")
         rows.append([strength, *(_of(one[m]) for m in (*marks, *more))])
