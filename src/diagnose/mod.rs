@@ -5,8 +5,11 @@ mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
+pub mod intervals;
+pub mod joint_parameters;
 mod mains_phase;
 pub mod prepare;
+mod probability;
 pub mod search;
 pub mod structure;
 mod tested;
@@ -21,7 +24,6 @@ use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdi
 use prepare::{Bench, prepare};
 use search::{Found, quick, search};
 use structure::structure;
-use trials::dispersion;
 
 use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit};
@@ -137,8 +139,18 @@ fn assemble(
         chi,
     );
     let causes = named_causes(bench, &found, &whole);
-    let candidates = candidates(bench, &found, &before);
+    let left = match verdict {
+        Verdict::Clean => 0.0,
+        _ if structure_before.share > 0.0 => {
+            (structure_after.share / structure_before.share).min(1.0)
+        }
+        _ => 0.0,
+    };
+    let candidates = candidates(bench, &found, &before, left);
     let joint = exported::joint(&bench.whole.operators, &whole)?;
+    let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
+    let mut notes = words::notes(records, bench);
+    notes.extend(said);
     let unit = match bench.whole.operators.form {
         Form::Play => "m",
         Form::Stop => "N",
@@ -159,13 +171,7 @@ fn assemble(
         extended: gain::errors(bench, &after),
         gain,
         unexplained: Unexplained {
-            share: match verdict {
-                Verdict::Clean => 0.0,
-                _ if structure_before.share > 0.0 => {
-                    (structure_after.share / structure_before.share).min(1.0)
-                }
-                _ => 0.0,
-            },
+            share: left,
             places: match verdict {
                 Verdict::Clean | Verdict::Explained => Vec::new(),
                 _ => words::places(bench, &structure_after),
@@ -173,8 +179,8 @@ fn assemble(
         },
         not_identifiable: words::not_identifiable(records),
         next_experiment: None,
-        joint_parameters: words::joint_parameters(&joint),
-        notes: words::notes(records, bench),
+        joint_parameters,
+        notes,
         joint,
         curves: curves::curves(bench, &before, &after),
         outlook: experiment::Outlook::default(),
@@ -185,7 +191,7 @@ fn assemble(
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
-    let spread = dispersion(&bench.whole, whole).sqrt();
+    let intervals = intervals::intervals(&bench.whole, &bench.scale, whole);
     let mut causes: Vec<NamedCause> = whole
         .effects
         .iter()
@@ -196,20 +202,12 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
                 .parameters()
                 .iter()
                 .zip(&acting.values)
-                .zip(&whole.errors[e])
-                .map(|((parameter, &value), &error)| {
-                    let half = 1.96 * error * spread;
-                    Estimate {
-                        name: parameter.name.to_string(),
-                        value,
-                        unit: parameter.unit.to_string(),
-                        interval: half.is_finite().then(|| {
-                            (
-                                (value - half).max(parameter.lower),
-                                (value + half).min(parameter.upper),
-                            )
-                        }),
-                    }
+                .zip(&intervals[e])
+                .map(|((parameter, &value), &interval)| Estimate {
+                    name: parameter.name.to_string(),
+                    value,
+                    unit: parameter.unit.to_string(),
+                    interval,
                 })
                 .collect();
             NamedCause {
@@ -234,24 +232,24 @@ fn kind(name: &str) -> String {
     .to_string()
 }
 
-/// The whole catalogue with evidence, probability (against each other and none, prior even) and
-/// what each alone would do to the held-out error.
+/// The whole catalogue with evidence, probability (against each other, none and what is not listed)
+/// and what each alone would do to the held-out error.
 fn candidates(
     bench: &Bench,
     found: &Found,
     before: &[crate::identify::Prediction],
+    left: f64,
 ) -> Vec<Candidate> {
-    let highest = found.trials.iter().fold(0.0_f64, |a, t| a.max(t.evidence));
-    let weight = |evidence: f64| (0.5 * (evidence - highest)).exp();
-    let total: f64 = weight(0.0) + found.trials.iter().map(|t| weight(t.evidence)).sum::<f64>();
+    let probabilities = probability::probabilities(found, left);
     let mut all: Vec<Candidate> = found
         .trials
         .iter()
-        .map(|trial| Candidate {
+        .zip(probabilities)
+        .map(|(trial, probability)| Candidate {
             name: trial.cause.name().to_string(),
             kind: kind(trial.cause.name()),
             evidence: 0.5 * trial.evidence,
-            probability: weight(trial.evidence) / total,
+            probability,
             lambda_sep: None,
             held_out_gain: (trial.evidence > 0.0)
                 .then(|| gain::ratio(bench, before, &trial.fit.predict(&bench.train)).0),

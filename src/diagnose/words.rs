@@ -1,9 +1,8 @@
 //! What a diagnosis says in words.
 
-use super::findings::{Estimate, Findings, Verdict};
+use super::findings::{Findings, Verdict};
 use super::prepare::{Bench, compliance_ratio};
 use super::structure::Structure;
-use crate::joint::Joint;
 use crate::record::Record;
 
 /// The verdict in a sentence or two.
@@ -91,17 +90,6 @@ pub fn not_identifiable(records: &[Record]) -> Vec<String> {
         );
     }
     sentences
-}
-
-/// Sizes of the identified joint that the records do tell.
-pub fn joint_parameters(joint: &Joint) -> Vec<Estimate> {
-    let plain = |name: &str, value: f64, unit: &str| Estimate {
-        name: name.to_string(),
-        value,
-        unit: unit.to_string(),
-        interval: None,
-    };
-    vec![plain("initial_stiffness", joint.initial_stiffness(), "N/m")]
 }
 
 /// Assumptions made on the way.

@@ -267,9 +267,9 @@ fn refine(
 
 /// One derivative column: effect, parameter, step of the difference, values per record.
 pub(super) struct Slope {
-    effect: usize,
-    parameter: usize,
-    unit: f64,
+    pub(super) effect: usize,
+    pub(super) parameter: usize,
+    pub(super) unit: f64,
     pub(super) values: Vec<Vec<f64>>,
 }
 

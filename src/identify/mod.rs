@@ -4,13 +4,17 @@
 
 pub mod exported;
 pub mod family;
+pub mod finer;
 pub mod fit;
+pub mod initial;
 pub mod interval;
 pub mod lanes;
+pub mod linearised;
 pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
+pub mod scatter;
 pub mod score;
 pub mod seed;
 pub mod series;
@@ -21,5 +25,6 @@ pub use fit::{Fit, baseline, refit, refit_below};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};
+pub use scatter::scatter;
 pub use score::{Score, scores};
 pub use seed::{Seed, SeedError};

@@ -65,7 +65,7 @@ impl Operators {
         Operators::with_edges(form, edges)
     }
 
-    fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
+    pub(super) fn with_edges(form: Form, edges: Vec<f64>) -> Operators {
         let mut from = 0.0;
         let mut thresholds = Vec::with_capacity((edges.len() + BEYOND) * SHARED);
         let top = edges.last().copied().unwrap_or(0.0);

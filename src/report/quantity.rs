@@ -201,9 +201,14 @@ pub(super) fn estimate(estimate: &Estimate) -> Shown {
     let spread = below.min(above);
     if !(spread >= 0.0 && below.max(above) > 0.0 && (upper - lower).is_finite()) {
         let interval = [lower, upper].map(|bound| number(scale.shown(bound), 3));
+        let error = match (value == lower, value == upper) {
+            (true, false) if upper.is_infinite() => "or more",
+            (false, true) if lower.is_infinite() => "or less",
+            _ => "see the interval",
+        };
         return Shown {
             value: quantity(value, &estimate.unit),
-            error: "see the interval".to_owned(),
+            error: error.to_owned(),
             interval: scale.attach(&interval.join(" … ")),
         };
     }
@@ -308,6 +313,11 @@ mod tests {
         assert_eq!(
             (open.value.as_str(), open.interval.as_str()),
             ("1.00 N", "0.500 … ∞ N")
+        );
+        let bound = estimated(3200.0, "N", Some((3200.0, f64::INFINITY)));
+        assert_eq!(
+            (bound.value.as_str(), bound.error.as_str()),
+            ("3.20 kN", "or more")
         );
         let nan = estimated(f64::NAN, "N", Some((1.0, 2.0)));
         assert_eq!(nan.value, "not determined");

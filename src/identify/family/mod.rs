@@ -127,7 +127,25 @@ pub fn fit_curve(
     )
 }
 
+/// Fits the family to all records at once from a shape that is known to be near, such as that of
+/// [`fit_curve`] for a joint of the dictionary fitted to the same records.
+///
+/// # Errors
+/// [`FamilyError`].
+pub fn fit_from(records: &[&Record], near: &Shape, drive: Drive) -> Result<FamilyFit, FamilyError> {
+    let target = Target::of_records(records, drive);
+    let start = match drive {
+        Drive::Force => near.by_loss(target.largest_way()),
+        Drive::Displacement => *near,
+    };
+    fit_starts(&target, &[start])
+}
+
 fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, FamilyError> {
+    fit_starts(target, &start::starts(target, initial))
+}
+
+fn fit_starts(target: &Target, starts: &[Shape]) -> Result<FamilyFit, FamilyError> {
     let samples = target.respond(&|_| 0.0).iter().map(Vec::len).sum();
     if samples < LEAST_SAMPLES {
         return Err(FamilyError::TooShort {
@@ -135,8 +153,7 @@ fn fit_target(target: &Target, initial: Option<f64>) -> Result<FamilyFit, Family
             least: LEAST_SAMPLES,
         });
     }
-    let starts = start::starts(target, initial);
-    let best = descent::global(target, &starts).ok_or(FamilyError::NoJoint)?;
+    let best = descent::global(target, starts).ok_or(FamilyError::NoJoint)?;
     let known = best.uncertainty(target).ok_or(FamilyError::NoJoint)?;
     if Told::of(target, &best.shape, &known).everything() {
         return concluded(target, best, known);
