@@ -17,27 +17,31 @@ SIGNALS = ["force", "dissipation", "stored_energy"]
 
 
 def fmpy(archive: str, load: np.ndarray) -> tuple[list, float]:
-    """The Python API of fmpy."""
+    """The Python API of fmpy, for either version."""
     from fmpy import extract, read_model_description
     from fmpy.fmi2 import FMU2Slave
+    from fmpy.fmi3 import FMU3Slave
 
     description = read_model_description(archive)
     references = {v.name: v.valueReference for v in description.modelVariables}
-    unit = FMU2Slave(
+    three = description.fmiVersion.startswith("3")
+    unit = (FMU3Slave if three else FMU2Slave)(
         guid=description.guid,
         unzipDirectory=extract(archive),
         modelIdentifier=description.coSimulation.modelIdentifier,
         instanceName="joint",
     )
     unit.instantiate()
-    unit.setupExperiment(startTime=0.0)
+    if not three:
+        unit.setupExperiment(startTime=0.0)
     unit.enterInitializationMode()
     unit.exitInitializationMode()
+    put, get = (unit.setFloat64, unit.getFloat64) if three else (unit.setReal, unit.getReal)
     rows, begun = [], time.perf_counter()
     for row, value in enumerate(load[1:]):
-        unit.setReal([references["displacement"]], [value])
+        put([references["displacement"]], [value])
         unit.doStep(row * STEP, STEP)
-        rows.append(unit.getReal([references[name] for name in SIGNALS]))
+        rows.append(get([references[name] for name in SIGNALS]))
     took = time.perf_counter() - begun
     unit.terminate()
     unit.freeInstance()
@@ -73,7 +77,7 @@ def libcosimpy(archive: str, load: np.ndarray) -> tuple[list, float]:
 
 
 def ecospy(archive: str, load: np.ndarray) -> tuple[list, float]:
-    """Ecos, native."""
+    """Ecos, native, for either version."""
     from ecospy import EcosSimulation, EcosSimulationStructure
 
     with EcosSimulationStructure() as structure:
