@@ -90,7 +90,7 @@ def run(command: list, log: Path) -> tuple[str | None, str]:
 
 
 def compared(rows: np.ndarray, seconds: float, reference: np.ndarray) -> Cell:
-    """Difference and time per step."""
+    """Difference and processor time per step."""
     apart = np.abs(rows - reference).max(axis=0) / np.abs(reference).max(axis=0)
     text = f"{apart.max():.1e}; {1e6 * seconds / len(rows):.1f} µs per step"
     return Cell(text, bool(apart.max() <= AGREES))
@@ -286,7 +286,7 @@ def main() -> int:
     text = (
         f"{table.markdown()}\n\nRun on {day} ({where}). Largest difference to `iwan simulate` of "
         f"force, dissipation and stored energy,\nrelative to each one's largest value, over "
-        f"{ROWS - 1} steps of a growing two-tone displacement.\n"
+        f"{ROWS - 1} steps of a growing two-tone displacement; processor time.\n"
     )
     print(text)
     if arguments.readme:
