@@ -15,7 +15,8 @@ const APART: usize = 2;
 /// Samples of one side that are asked.
 const ASKED: usize = 4;
 
-/// Typical deviations beyond which a sample stands alone. Of a million normal ones none does (tests/outliers.rs), and a fourteenfold outlier does.
+/// Typical deviations beyond which a sample stands alone: of a million normal ones none does, and a
+/// fourteenfold outlier does (tests/outliers.rs).
 const ALONE: f64 = 9.0;
 
 /// Share of the samples above which the channel is like that.
