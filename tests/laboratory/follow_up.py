@@ -13,6 +13,7 @@ from .case import draw_case, stage_case, write_case
 from .score import judge, share
 
 FINE = 4  # steps of the rig between two samples
+CAUTION = (1.0, 0.8, 0.65)  # of the largest force, where the joint slips away under it
 SI = {"force": "N", "length": "m", "swap": False}
 
 
@@ -89,13 +90,14 @@ def measure_dummy(truth, directory):
     return path
 
 
-def _limits(truth):
+def _limits(truth, caution=1.0):
     """What the rig can do: nearly full slip, ten times the rate, the time of the first tests."""
     fastest = max(max(f["rates_Hz"]) for f in truth["files"])
     seconds = sum(f["duration_s"] for f in truth["files"])
     limits = {"--limit-rate": 10.0 * fastest, "--limit-duration": seconds}
     if truth["drive"] == "force":
-        limits["--limit-force"] = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        most = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        limits["--limit-force"] = caution * most
     return tuple(word for option, value in limits.items() for word in (option, repr(value)))
 
 
@@ -103,20 +105,35 @@ def follow_up(seed, number, name, span, iwan, directory, by_dummy=False):
     """One case before and after: marks of both, or only the first where nothing was ambiguous."""
     folder = Path(directory) / f"case-{number:04d}"
     records, truth, style = draw_case(seed, number, name, span=span)
-    paths = write_case(folder, records, truth, style)
-    before, reason, _ = diagnose(iwan, paths, folder / "before", _limits(truth))
-    if before is None:
-        return {"case": number, "effect": name, "failed": reason}
-    marks = {"case": number, "effect": name, "before": judge(truth, before), "after": None}
-    if not marks["before"]["ambiguous_with"] or not marks["before"]["in_set"]:
-        return marks
-    load = folder / "before" / "next_experiment.csv"
+    write_case(folder, records, truth, style)
+    return followed(folder, truth, iwan, by_dummy)
+
+
+def followed(folder, truth, iwan, by_dummy=False):
+    """The drawn case of a folder before and after."""
+    folder, name, number = Path(folder), truth["effect"], truth["case"]
+    paths = sorted((folder / "records").glob("*.csv"))
     hidden = folder / "truth.json"
-    if by_dummy:
-        more = ("--dummy", str(measure_dummy(hidden, folder)))
-    elif load.exists():
-        paths = [*paths, run_load(hidden, load, folder)]
-        more = ()
+    more = ()
+    for caution in CAUTION:
+        before, reason, _ = diagnose(iwan, paths, folder / "before", _limits(truth, caution))
+        if before is None:
+            return {"case": number, "effect": name, "failed": reason}
+        marks = {"case": number, "effect": name, "before": judge(truth, before), "after": None}
+        if not marks["before"]["ambiguous_with"] or not marks["before"]["in_set"]:
+            return marks
+        load = folder / "before" / "next_experiment.csv"
+        if by_dummy:
+            more = ("--dummy", str(measure_dummy(hidden, folder)))
+            break
+        if not load.exists():
+            return marks
+        try:
+            paths = [*paths, run_load(hidden, load, folder)]
+            break
+        except rig.Infeasible as slipped:
+            # The joint slips away under this load: the engineer asks again with less force.
+            marks["slipped"] = str(slipped)
     else:
         return marks
     after, reason, _ = diagnose(iwan, paths, folder / "after", more)
