@@ -583,9 +583,9 @@ fn the_page_needs_nothing_else() {
         );
     }
     assert!(page.trim_start().starts_with("<!DOCTYPE html>"));
-    // Two records with four plots each, and the evidence.
-    assert_eq!(page.matches("<svg").count(), 9);
-    assert_eq!(page.matches("</svg>").count(), 9);
+    // Two records with four plots each, the loss over amplitude, and the evidence.
+    assert_eq!(page.matches("<svg").count(), 10);
+    assert_eq!(page.matches("</svg>").count(), 10);
     assert!(page.contains("force [kN]") || page.contains("force [N]"));
     assert!(page.contains("displacement [µm]"));
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
@@ -662,7 +662,7 @@ fn drawings_are_well_formed_and_small_for_long_records() {
     let page = drawn(&found);
     kept("report_long.html", &page);
     let drawings: Vec<&str> = page.split("<svg").skip(1).collect();
-    assert_eq!(drawings.len(), 5);
+    assert_eq!(drawings.len(), 6);
     for drawing in drawings {
         let end = drawing.find("</svg>").expect("an end") + "</svg>".len();
         let markup = format!("<svg{}", &drawing[..end]);

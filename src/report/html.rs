@@ -24,7 +24,7 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
     let mut records = Vec::new();
     for curves in &findings.curves {
         let figures = plots::of_record(findings, curves)?;
-        if figures.is_empty() && !findings.levels.is_empty() {
+        if figures.is_empty() && !curves.cycles.is_empty() {
             // An amplitude table: its levels are drawn together.
             continue;
         }

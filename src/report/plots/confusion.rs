@@ -10,7 +10,6 @@ use crate::diagnose::Findings;
 use crate::diagnose::experiment::Separable;
 use crate::diagnose::experiment::separability::TOLD;
 use crate::report::ReportError;
-use crate::report::quantity::number;
 use crate::report::wording::in_words;
 
 /// Width of the map, of the names at the left, and heights of the names above and of a row; shown
@@ -114,7 +113,7 @@ impl Map<'_, '_> {
                 self.area.draw(&Rectangle::new(field, own))?;
                 continue;
             }
-            let frame = palette::AXIS.mix(0.25).stroke_width(FINE / 2);
+            let frame = palette::AXIS.mix(0.4).stroke_width(FINE / 2);
             self.area.draw(&Rectangle::new(field, frame))?;
             let left = line.row.iter().find(|(rival, _)| rival == name);
             let Some((_, left)) = left.filter(|(_, left)| *left < LITTLE) else {
@@ -128,7 +127,7 @@ impl Map<'_, '_> {
             self.area.draw(&Rectangle::new(field, tone))?;
             let shown = match *left {
                 left if left < 1.0 => "<1".to_owned(),
-                left => number(left.round(), 3),
+                left => format!("{left:.0}"),
             };
             let centred = ink().pos(Pos::new(HPos::Center, VPos::Center));
             let at = ((from + to) / 2, middle);

@@ -34,7 +34,7 @@ pub(super) fn draw(findings: &Findings) -> Result<Vec<Figure>, ReportError> {
         one(
             findings,
             ("Loss over amplitude", "energy per cycle"),
-            "A straight line is a power law.",
+            "What is dissipated at each level of the load.",
             energy,
         )?,
         one(findings, (title, name), caption, stiffness)?,
@@ -76,11 +76,11 @@ fn one(
     let amplitudes = points.iter().map(|point| point.0);
     let ordinates = points.iter().flat_map(|point| &point.1[..shown]).copied();
     let x = match loss {
-        true => Axis::from_zero_or_logarithmic(channel, over, amplitudes, 6),
+        true => Axis::logarithmic(channel, over, amplitudes, 6),
         false => wide(channel, over, amplitudes),
     };
     let y = match loss {
-        true => Axis::from_zero_or_logarithmic(name, &unit, ordinates, 5),
+        true => Axis::logarithmic(name, &unit, ordinates, 5),
         false => Axis::over(name, &unit, ordinates, 5),
     };
     let (Some(x), Some(y)) = (x, y) else {
