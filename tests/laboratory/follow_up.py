@@ -19,6 +19,7 @@ from .pair import stage_pair
 from .score import judge, print_totals, share
 
 FINE = FOLLOW_UP_FINE
+CAUTION = (1.0, 0.8, 0.65)  # of the largest force, where the joint slips away under it
 SI = {"force": "N", "length": "m", "swap": False}
 
 
@@ -132,19 +133,28 @@ class FollowUp:
     def _both(self, task, folder):
         records, truth, style = task.draw()
         paths = write_case(folder, records, truth, style)
-        before, reason, _ = diagnose(self.iwan, paths, folder / "before", _limits(truth))
-        if before is None:
-            return {"failed": reason}
-        marks = {"before": judge(truth, before), "promised": before["next_experiment"]}
-        if not marks["before"]["ambiguous_with"]:
-            return marks
-        load = folder / "before" / "next_experiment.csv"
         hidden = folder / "truth.json"
-        if self.by_dummy:
-            more = ("--dummy", str(measure_dummy(hidden, folder)))
-        elif load.exists():
-            paths = [*paths, run_load(hidden, load, folder)]
-            more = ()
+        more = ()
+        for caution in CAUTION:
+            limits = _limits(truth, caution)
+            before, reason, _ = diagnose(self.iwan, paths, folder / "before", limits)
+            if before is None:
+                return {"failed": reason}
+            marks = {"before": judge(truth, before), "promised": before["next_experiment"]}
+            if not marks["before"]["ambiguous_with"]:
+                return marks
+            if self.by_dummy:
+                more = ("--dummy", str(measure_dummy(hidden, folder)))
+                break
+            load = folder / "before" / "next_experiment.csv"
+            if not load.exists():
+                return marks
+            try:
+                paths = [*paths, run_load(hidden, load, folder)]
+                break
+            except rig.Infeasible as slipped:
+                # The joint slips away under this load: the engineer asks again with less force.
+                marks["slipped"] = str(slipped)
         else:
             return marks
         after, reason, _ = diagnose(self.iwan, paths, folder / "after", more)
