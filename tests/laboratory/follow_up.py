@@ -98,13 +98,14 @@ def measure_dummy(truth, directory):
     return path
 
 
-def _limits(truth):
+def _limits(truth, caution=1.0):
     """What the rig can do: nearly full slip, ten times the rate, the time of the first tests."""
     fastest = max(max(f["rates_Hz"]) for f in truth["files"])
     seconds = sum(f["duration_s"] for f in truth["files"])
     limits = {"--limit-rate": 10.0 * fastest, "--limit-duration": seconds}
     if truth["drive"] == "force":
-        limits["--limit-force"] = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        most = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        limits["--limit-force"] = caution * most
     return tuple(word for option, value in limits.items() for word in (option, repr(value)))
 
 
