@@ -65,10 +65,10 @@ class Pair:
         self.hosts = [Host(a, place) for a, place in zip(archives, places, strict=True)]
 
 
-def mapped(name: str) -> int:
-    """Times that a file of this name is mapped into the process."""
+def mapped(folder: str) -> int:
+    """Mappings into the process of files from this folder."""
     with open("/proc/self/maps", encoding="utf-8") as maps:
-        return sum(name in line for line in maps)
+        return sum(folder in line for line in maps)
 
 
 def resident() -> int:
@@ -115,15 +115,19 @@ def threads_of_the_host_do_not_meet(pair: Pair) -> None:
 def a_library_is_unloaded_and_loaded_again(pair: Pair) -> None:
     host = pair.hosts[0]
     first = host.run(20)
+    unit = host.start()
     if not Path("/proc/self/maps").exists():
         print("not run here: memory and mappings are told by Linux alone")
+        unit.freeInstance()
         return
+    assert mapped(host.arguments["unzipDirectory"]) > 0
+    unit.freeInstance()
     for _ in range(20):
         host.run(20)
     before = resident()
     for _ in range(CYCLES):
         assert host.run(20) == first
-    assert mapped("IwanJoint") == 0, "the library stays in the process"
+    assert mapped(host.arguments["unzipDirectory"]) == 0, "the library stays in the process"
     # Loading leaves the C library's own tables behind; a leak of one instance (160 KiB) each time
     # would be a hundred times this.
     grown = resident() - before
