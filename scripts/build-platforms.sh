@@ -3,16 +3,20 @@
 # that holds them all.
 #
 #   scripts/build-platforms.sh [--install] [--joint JOINT.json] [--output JOINT.fmu] [PLATFORM…]
+#   scripts/build-platforms.sh --check
 #
 #   PLATFORM    linux64 (glibc 2.17 or newer), win64, aarch64-linux; by default all three
 #   --install   fetch the system's missing packages with apt-get (Debian and its kin, as root)
 #   --joint     the joint of the archive; by default the one of scripts/platforms
 #   --output    the archive; by default target/platforms/joint.fmu
+#   --check     build nothing: run what was built of these sources, and for linux64 else the library
+#               that this machine uses itself; a step of the tests
 #
 # Libraries go to target/platforms/PLATFORM/. What cannot be built or run on this machine is said
 # in the table at the end and left out of the archive; a platform asked for by name must be built.
 # Exit status 0: everything that was tried succeeded; 1: a build failed or a platform answers
-# differently; 2: usage, or a named platform lacks its tools.
+# differently; 2: usage, or a named platform lacks its tools; 4: with --check, where a platform was
+# not run, which a line `NOT RUN` tells.
 #
 # Rust's standard library for a platform comes from rustup; where rustup can fetch nothing, Debian's
 # packages of the compiler and its sources are unpacked into target/platforms and the standard
@@ -20,12 +24,14 @@
 set -euo pipefail
 
 install=no
+check=no
 joint=
 output=
 asked=()
 while [ $# -gt 0 ]; do
     case "$1" in
     --install) install=yes ;;
+    --check) check=yes ;;
     --joint | --output)
         [ $# -ge 2 ] || { echo "build-platforms: $1 needs a file" >&2; exit 2; }
         [ "$1" = --joint ] && joint=$(realpath "$2") || output=$(realpath -m "$2")
@@ -33,7 +39,7 @@ while [ $# -gt 0 ]; do
         ;;
     linux64 | win64 | aarch64-linux) asked+=("$1") ;;
     *)
-        echo "usage: scripts/build-platforms.sh [--install] [--joint FILE] [--output FILE] [linux64|win64|aarch64-linux]…" >&2
+        echo "usage: scripts/build-platforms.sh [--check] [--install] [--joint FILE] [--output FILE] [linux64|win64|aarch64-linux]…" >&2
         exit 2
         ;;
     esac
@@ -57,7 +63,8 @@ declare -A triple=(
 )
 declare -A built_as=([linux64]=libiwan.so [win64]=iwan.dll [aarch64-linux]=libiwan.so)
 declare -A packed_as=([linux64]=IwanJoint.so [win64]=IwanJoint.dll [aarch64-linux]=IwanJoint.so)
-declare -A built ran
+declare -A built ran library_of
+zig="$out/zig"
 
 have() { command -v "$1" >/dev/null; }
 
@@ -100,7 +107,6 @@ fetch_packages() {
 
 # zig links against an old glibc and for ARM; from PyPI, in an environment of its own.
 prepare_zig() {
-    zig="$out/zig"
     [ -x "$zig/bin/cargo-zigbuild" ] && return 0
     say "fetching zig (about 100 MB)"
     python3 -m venv "$zig" &&
@@ -171,7 +177,7 @@ build_platform() {
     # No path of this machine may stay in what is shipped.
     local separator=$'\x1f' sysroot
     sysroot=$("${RUSTC:-rustc}" --print sysroot)
-    if ! PATH="${zig:+$zig/bin:}$PATH" CARGO_PROFILE_RELEASE_LTO=fat CARGO_PROFILE_RELEASE_CODEGEN_UNITS=1 \
+    if ! PATH="$zig/bin:$PATH" CARGO_PROFILE_RELEASE_LTO=fat CARGO_PROFILE_RELEASE_CODEGEN_UNITS=1 \
         CARGO_PROFILE_RELEASE_STRIP=symbols CARGO_TARGET_DIR="$out/build" \
         CARGO_ENCODED_RUSTFLAGS="--remap-path-prefix=$REPOSITORY=iwan${separator}--remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo${separator}--remap-path-prefix=$sysroot=rust" \
         "${command[@]}" --locked ${standard[@]+"${standard[@]}"} --target "$linker_target" --release --lib \
@@ -180,15 +186,38 @@ build_platform() {
         built[$platform]="FAILED, see target/platforms/$platform.log"
         return 1
     fi
+    library_of[$platform]="$out/$platform/${packed_as[$platform]}"
     mkdir -p "$out/$platform"
-    cp "$out/build/$target/release/${built_as[$platform]}" "$out/$platform/${packed_as[$platform]}"
-    built[$platform]=$("$PYTHON" "$tools/library.py" "$platform" "$out/$platform/${packed_as[$platform]}") ||
-        { built[$platform]="FAILED: ${built[$platform]}"; return 1; }
+    cp "$out/build/$target/release/${built_as[$platform]}" "${library_of[$platform]}"
+    inspect "$platform"
+}
+
+# What a library needs and shows.
+inspect() {
+    built[$1]=$("$PYTHON" "$tools/library.py" "$1" "${library_of[$1]}" "${@:2}") ||
+        { built[$1]="FAILED: ${built[$1]}"; return 1; }
+}
+
+# The library that an earlier run built, where it is of these sources. For linux64 else the one of
+# this machine: as it is linked here it is not meant for others.
+find_platform() {
+    local stamp library="$out/$1/${packed_as[$1]}"
+    stamp=$(grep -aom1 'iwan-sources-[0-9a-f]\{16\}' "$FMU_LIBRARY")
+    if [ -e "$library" ] && grep -aqF "$stamp" "$library"; then
+        library_of[$1]=$library
+        inspect "$1"
+    elif [ "$1" = linux64 ]; then
+        library_of[linux64]=$FMU_LIBRARY
+        inspect linux64 --here
+    else
+        built[$1]="no: scripts/build-platforms.sh $1 has not been run on these sources"
+        return 1
+    fi
 }
 
 # The host of a platform, run on its library; answers go to target/platforms/PLATFORM.txt.
 run_platform() {
-    local platform=$1 host="$out/host-$1" library="$out/$1/${packed_as[$1]}" runner=() resources="$out/resources"
+    local platform=$1 host="$out/host-$1" library=${library_of[$1]} runner=() resources="$out/resources"
     case "$platform" in
     linux64)
         cc -O1 -o "$host" "$tools/host.c" -ldl
@@ -217,10 +246,13 @@ run_platform() {
     fi
     # wine's C library ends lines as Windows does.
     sed -i 's/\r$//' "$out/$platform.txt"
+    local found
     if [ "$platform" = linux64 ]; then
-        ran[$platform]="run: $(wc -l <"$out/$platform.txt") rows"
+        found=$("$PYTHON" "$tools/load.py" against "$out/simulated.csv" "$out/$platform.txt") ||
+            { ran[$platform]="FAILED against iwan simulate: $found"; return 1; }
+        ran[$platform]="run by a host in C, against iwan simulate: $found"
     elif [ -e "$out/linux64.txt" ]; then
-        local by=${runner[0]##*/} found
+        local by=${runner[0]##*/}
         found=$("$PYTHON" "$tools/load.py" compare "$out/linux64.txt" "$out/$platform.txt") ||
             { ran[$platform]="FAILED under $by against linux64: $found"; return 1; }
         ran[$platform]="run under $by, against linux64: $found"
@@ -231,13 +263,18 @@ run_platform() {
 
 platforms=(linux64 win64 aarch64-linux)
 [ ${#asked[@]} -eq 0 ] || platforms=("${asked[@]}")
-fetch_packages "${platforms[@]}"
+prepare=build_platform
+if [ "$check" = yes ]; then
+    prepare=find_platform
+else
+    fetch_packages "${platforms[@]}"
+fi
 rm -f "$out"/*.txt
 failed=no
 binaries=()
 for platform in "${platforms[@]}"; do
-    if build_platform "$platform"; then
-        binaries+=(--binary "$platform=$out/$platform/${packed_as[$platform]}")
+    if "$prepare" "$platform"; then
+        binaries+=(--binary "$platform=${library_of[$platform]}")
     elif [[ "${built[$platform]}" == FAILED* ]]; then
         failed=yes
     fi
@@ -249,10 +286,11 @@ if [ ${#binaries[@]} -gt 0 ]; then
     guid=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$out/compared.fmu")
     mkdir -p "$out/resources"
     cp "$tools/joint.json" "$out/resources/joint.json"
-    rows=$("$PYTHON" "$tools/load.py" write "$out/load.txt")
+    rows=$("$PYTHON" "$tools/load.py" write "$out/load.txt" "$out/load.csv")
+    "$IWAN" simulate "$tools/joint.json" "$out/load.csv" -o "$out/simulated.csv" 2>/dev/null
     for platform in "${platforms[@]}"; do
-        [ -e "$out/$platform/${packed_as[$platform]}" ] && [[ "${built[$platform]}" != no* ]] || continue
-        [[ "${built[$platform]}" == FAILED* ]] || run_platform "$platform" || failed=yes
+        [[ "${built[$platform]}" != no* && "${built[$platform]}" != FAILED* ]] || continue
+        run_platform "$platform" || failed=yes
     done
     "$IWAN" export "$joint" -o "$output" "${binaries[@]}" 2>/dev/null
 fi
@@ -264,6 +302,15 @@ done
 echo "darwin64        not built here and never run: build it on a Mac and add it with --binary darwin64=FILE"
 [ ${#binaries[@]} -eq 0 ] || printf '\narchive of all that was built: %s\n' "${output#"$REPOSITORY/"}"
 [ "$failed" = no ] || exit 1
+if [ "$check" = yes ]; then
+    status=0
+    for platform in "${platforms[@]}"; do
+        [[ "${ran[$platform]-}" == run* ]] && continue
+        echo "NOT RUN: $platform: ${ran[$platform]-${built[$platform]}}"
+        status=4
+    done
+    exit "$status"
+fi
 for platform in ${asked[@]+"${asked[@]}"}; do
     [[ "${built[$platform]}" != no* ]] || exit 2
 done

@@ -102,6 +102,10 @@ fn one_rate_leaves_questions_and_a_program_within_the_rig() {
         // A rival beside the baseline leaves no more than the baseline alone.
         assert!(line.lambda <= line.baseline * (1.0 + 1e-9), "{line:?}");
         assert!(line.lambda >= 0.0 && !line.rivals.is_empty(), "{line:?}");
+        // A row of the map holds the plain joint and everything else of the catalogue.
+        assert_eq!(line.row.len(), 23);
+        let least = line.row.iter().map(|r| r.1).fold(f64::INFINITY, f64::min);
+        assert!(least <= line.lambda * (1.0 + 1e-9), "{line:?}");
     }
     for candidate in &findings.candidates {
         let line = lines.iter().find(|l| l.name == candidate.name);

@@ -417,11 +417,11 @@ fn the_archive_tells_where_its_numbers_come_from() {
     );
 }
 
-/// Folders of both versions; Linux on ARM has one name in either.
+/// Folders of both versions; ARM has one name in either.
 #[test]
 fn platforms_have_the_names_of_each_version() {
-    use iwan::pack::{FmiVersion, Library};
-    for (platform, folder, file) in [
+    use iwan::pack::{FmiVersion, Library, PLATFORMS, Platform};
+    let platforms = [
         ("linux64", "x86_64-linux", "IwanJoint.so"),
         ("win64", "x86_64-windows", "IwanJoint.dll"),
         ("darwin64", "x86_64-darwin", "IwanJoint.dylib"),
@@ -429,16 +429,25 @@ fn platforms_have_the_names_of_each_version() {
         ("win32", "x86-windows", "IwanJoint.dll"),
         ("darwin32", "x86-darwin", "IwanJoint.dylib"),
         ("aarch64-linux", "aarch64-linux", "IwanJoint.so"),
-    ] {
+        ("aarch64-darwin", "aarch64-darwin", "IwanJoint.dylib"),
+    ];
+    assert_eq!(platforms.len(), PLATFORMS.len());
+    for (platform, folder, file) in platforms {
         let library = Library {
-            platform,
+            platform: Platform::named(platform).expect("a platform"),
             path: PathBuf::new(),
             bytes: vec![],
         };
         let entries = [FmiVersion::Two, FmiVersion::Three].map(|version| library.entry(version));
         let expected = [platform, folder].map(|folder| format!("binaries/{folder}/{file}"));
         assert_eq!(entries, expected);
+        for (version, folder) in [(FmiVersion::Two, platform), (FmiVersion::Three, folder)] {
+            let found = Platform::of_folder(version, folder).expect("a folder of that version");
+            assert_eq!(found.name, platform);
+        }
     }
+    assert!(Platform::of_folder(FmiVersion::Three, "linux64").is_none());
+    assert!(Platform::named("x86_64-linux").is_err());
 }
 
 /// The terminal of FMI 3.0 names variables that every joint has.

@@ -48,34 +48,56 @@ fn fine(folder: &Path, arguments: &[&str]) -> String {
 
 /// A folder with an archive of a joint.
 fn exported(name: &str, causes: &str, drive: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("importer {name} {drive}"));
+    exported_as("2", name, causes, drive)
+}
+
+/// The same for a version of FMI.
+fn exported_as(version: &str, name: &str, causes: &str, drive: &str) -> PathBuf {
+    let name = format!("importer ü {name} {drive} {version}");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder); // of an earlier run, if any
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("joint.json"), joint(causes)).expect("a joint");
-    fine(
-        &folder,
-        &["export", "joint.json", "-o", "joint.fmu", "--drive", drive],
-    );
+    let export = ["export", "joint.json", "-o", "joint.fmu"];
+    let options = ["--drive", drive, "--fmi", version];
+    fine(&folder, &[&export[..], &options].concat());
     folder
 }
 
+/// Either version in the importer: the same answers as `iwan simulate`, a saved state that continues
+/// where the importer has saved states, and the same run after a reset.
 #[test]
 fn the_importer_gives_what_the_simulation_gives() {
-    for (name, causes) in [("plain", "[]"), ("with causes", CAUSES)] {
-        for drive in ["force", "displacement"] {
-            let folder = exported(name, causes, drive);
-            let told = fine(&folder, &["check", "joint.fmu", "--json"]);
-            let found: Value = serde_json::from_str(&told).expect("JSON");
-            assert_eq!(found["verdict"], "agrees", "{told}");
-            assert_eq!(found["input"], drive);
+    let joints = [("plain", "[]"), ("with causes", CAUSES)];
+    let drives = ["force", "displacement"];
+    let cases = joints.into_iter().flat_map(|joint| {
+        let versions = drives.map(|drive| ["2", "3"].map(|version| (joint, drive, version)));
+        versions.into_iter().flatten()
+    });
+    for ((name, causes), drive, version) in cases {
+        let folder = exported_as(version, name, causes, drive);
+        let told = fine(&folder, &["check", "joint.fmu", "--json"]);
+        let found: Value = serde_json::from_str(&told).expect("JSON");
+        assert_eq!(found["verdict"], "agrees", "{told}");
+        assert_eq!(found["fmi"], format!("{version}.0"));
+        assert_eq!(found["input"], drive);
+        assert_eq!(found["faults"], serde_json::json!([]));
+        assert_eq!(found["reset_repeats"], true);
+        let text = fine(&folder, &["check", "joint.fmu"]);
+        assert!(text.contains("agrees with its joint"), "{text}");
+        if version == "2" {
             assert_eq!(found["state_continues"], true);
-            let differences = found["differences"].as_array().expect("a list");
-            assert_eq!(differences.len(), 6);
-            for difference in differences {
-                let value = difference["largest_value"].as_f64().expect("a number");
-                assert!(value > 0.0, "nothing is compared in {difference}");
-            }
-            assert!(fine(&folder, &["check", "joint.fmu"]).contains("agrees with its joint"));
+        } else {
+            // The `fmi` crate has no saved states of FMI 3.0; that is said.
+            assert_eq!(found["state_continues"], Value::Null);
+            assert!(text.contains("Saved states were not tried"), "{text}");
+        }
+        let differences = found["differences"].as_array().expect("a list");
+        assert_eq!(differences.len(), 6);
+        for difference in differences {
+            let value = difference["largest_value"].as_f64().expect("a number");
+            assert!(value > 0.0, "nothing is compared in {difference}");
+            assert_eq!(difference["largest_difference"], 0.0, "{difference}");
         }
     }
 }
@@ -107,24 +129,12 @@ fn a_foreign_archive_is_refused() {
     std::fs::write(folder.join("text.fmu"), "no archive").expect("a file");
     let output = iwan(&folder, &["check", "text.fmu"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("text.fmu: is no FMI 2.0 archive"));
+    assert!(
+        String::from_utf8_lossy(&output.stderr)
+            .contains("text.fmu: is no archive of FMI 2.0 or 3.0")
+    );
     let output = iwan(&folder, &["check", "none.fmu"]);
     assert_eq!(output.status.code(), Some(2));
-}
-
-/// The importer behind `iwan check` is one of FMI 2.0; an archive of FMI 3.0 is told by its name.
-#[test]
-fn an_archive_of_fmi_3_is_refused_with_a_message() {
-    let folder = exported("three", "[]", "force");
-    let output = iwan(
-        &folder,
-        &["export", "joint.json", "-o", "three.fmu", "--fmi", "3"],
-    );
-    assert_eq!(output.status.code(), Some(0));
-    let output = iwan(&folder, &["check", "three.fmu"]);
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("three.fmu: is no FMI 2.0 archive"), "{told}");
 }
 
 #[test]
@@ -207,45 +217,80 @@ fn a_record_is_compared_and_its_step_is_judged() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// XML that no longer says what the joint is: another start value, another unit, no library.
+/// The archive with one text replaced in one entry, or without the entries that begin so.
+fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), dropped: &str) {
+    let file = std::fs::File::open(folder.join("joint.fmu")).expect("the archive");
+    let mut old = zip::ZipArchive::new(file).expect("a zip file");
+    let file = std::fs::File::create(folder.join(name)).expect("a file");
+    let mut new = zip::ZipWriter::new(file);
+    let names: Vec<String> = old.file_names().map(str::to_owned).collect();
+    for kept in names.iter().filter(|kept| !kept.starts_with(dropped)) {
+        let mut bytes = Vec::new();
+        std::io::copy(&mut old.by_name(kept).expect("an entry"), &mut bytes).expect("bytes");
+        if kept == entry {
+            let text = String::from_utf8(bytes).expect("UTF-8");
+            assert!(text.contains(from), "{text}");
+            bytes = text.replace(from, to).into_bytes();
+        }
+        new.start_file(kept, zip::write::SimpleFileOptions::default())
+            .expect("an entry");
+        std::io::Write::write_all(&mut new, &bytes).expect("bytes");
+    }
+    new.finish().expect("an archive");
+}
+
+/// What `iwan check` says to such an archive, which it must refuse.
+fn refused(folder: &Path, name: &str, change: (&str, &str, &str), dropped: &str) -> String {
+    spoilt(folder, name, change, dropped);
+    let output = iwan(folder, &["check", name]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    told
+}
+
+const DESCRIPTION: &str = "modelDescription.xml";
+const NO_CHANGE: (&str, &str, &str) = ("", "", "");
+const NO_ENTRY: &str = "no entry begins with this";
+
+/// XML that no longer says what the joint is: another start value, another unit, no library; of
+/// either version.
 #[test]
 fn an_archive_whose_parts_disagree_is_refused() {
-    let folder = exported("disagree", "[]", "force");
-    let spoilt = |name: &str, from: &str, to: &str, dropped: &str| {
-        let file = std::fs::File::open(folder.join("joint.fmu")).expect("the archive");
-        let mut old = zip::ZipArchive::new(file).expect("a zip file");
-        let file = std::fs::File::create(folder.join(name)).expect("a file");
-        let mut new = zip::ZipWriter::new(file);
-        let names: Vec<String> = old.file_names().map(str::to_owned).collect();
-        for entry in names.iter().filter(|entry| !entry.starts_with(dropped)) {
-            let mut bytes = Vec::new();
-            std::io::copy(&mut old.by_name(entry).expect("an entry"), &mut bytes).expect("bytes");
-            if entry == "modelDescription.xml" {
-                let text = String::from_utf8(bytes).expect("UTF-8");
-                assert!(text.contains(from), "{text}");
-                bytes = text.replace(from, to).into_bytes();
-            }
-            new.start_file(entry, zip::write::SimpleFileOptions::default())
-                .expect("an entry");
-            std::io::Write::write_all(&mut new, &bytes).expect("bytes");
-        }
-        new.finish().expect("an archive");
-        let output = iwan(&folder, &["check", name]);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{told}");
-        told
-    };
-    let nothing = "no entry begins with this";
-    let told = spoilt("start.fmu", "start=\"1000.0\"", "start=\"999.0\"", nothing);
-    assert!(
-        told.contains("variable slip_force: start expected"),
-        "{told}"
-    );
-    let told = spoilt("unit.fmu", "unit=\"J\"", "unit=\"W\"", nothing);
-    assert!(told.contains("unit expected J, came W"), "{told}");
-    let told = spoilt("page.fmu", "<", "<", "documentation/index.html");
-    assert!(
-        told.contains("documentation/index.html is missing"),
-        "{told}"
-    );
+    for version in ["2", "3"] {
+        let folder = exported_as(version, "disagree", "[]", "force");
+        let start = (DESCRIPTION, "start=\"1000.0\"", "start=\"999.0\"");
+        let told = refused(&folder, "start.fmu", start, NO_ENTRY);
+        let expected = "variable slip_force: start expected";
+        assert!(told.contains(expected), "{told}");
+        let unit = (DESCRIPTION, "unit=\"J\"", "unit=\"W\"");
+        let told = refused(&folder, "unit.fmu", unit, NO_ENTRY);
+        assert!(told.contains("unit expected J, came W"), "{told}");
+        let name = (DESCRIPTION, "name=\"dissipation\"", "name=\"loss\"");
+        let told = refused(&folder, "name.fmu", name, NO_ENTRY);
+        assert!(told.contains("variable loss: the joint has none"), "{told}");
+        let page = "documentation/index.html";
+        let told = refused(&folder, "page.fmu", NO_CHANGE, page);
+        assert!(told.contains(&format!("{page} is missing")), "{told}");
+        let told = refused(&folder, "library.fmu", NO_CHANGE, "binaries/");
+        assert!(told.contains("library.fmu: fmi"), "{told}");
+        // A joint that was exchanged is told by the GUID that the XML still has.
+        let joint = ("resources/joint.json", "1000.0", "1001.0");
+        let told = refused(&folder, "joint-2.fmu", joint, NO_ENTRY);
+        assert!(told.contains("the GUID in modelDescription.xml"), "{told}");
+    }
+}
+
+/// What only FMI 3.0 has: a terminal, and a library under another folder.
+#[test]
+fn an_archive_of_fmi_3_whose_terminal_leads_nowhere_is_refused() {
+    let folder = exported_as("3", "terminal", "[]", "force");
+    let entry = "terminalsAndIcons/terminalsAndIcons.xml";
+    let member = (entry, "variableName=\"force\"", "variableName=\"load\"");
+    let told = refused(&folder, "member.fmu", member, NO_ENTRY);
+    assert!(told.contains("there is no variable \"load\""), "{told}");
+    let told = refused(&folder, "none.fmu", NO_CHANGE, entry);
+    assert!(told.contains(&format!("{entry} is missing")), "{told}");
+    let version = (DESCRIPTION, "fmiVersion=\"3.0\"", "fmiVersion=\"1.0\"");
+    let told = refused(&folder, "one.fmu", version, NO_ENTRY);
+    assert!(told.contains("is no archive of FMI 2.0 or 3.0"), "{told}");
 }

@@ -7,6 +7,8 @@ use iwan::diagnose::experiment::{Correction, Dummy, Outlook, Separable};
 use iwan::diagnose::findings::{
     Candidate, Errors, Estimate, NamedCause, NoiseFinding, RecordCurves, Unexplained, Verdict,
 };
+use iwan::diagnose::left_out::LeftOut;
+use iwan::diagnose::levels::{Compared, Level};
 use iwan::joint::{Density, Joint, Sliders};
 use iwan::report::{CausePage, html, json, text};
 use serde_json::{Value, json};
@@ -81,6 +83,27 @@ fn candidate(name: &str, kind: &str, evidence: f64, probability: f64) -> Candida
     }
 }
 
+fn level(record: &str, (amplitude, mean): (f64, f64), rate: Option<f64>, energy: f64) -> Level {
+    Level {
+        record: record.to_owned(),
+        amplitude,
+        mean,
+        unit: "N".to_owned(),
+        rate,
+        cycles: if rate.is_some() { 4 } else { 1 },
+        held_out: rate.is_none(),
+        energy: Some(Compared {
+            measured: energy,
+            unit: "J".to_owned(),
+            before: 0.09,
+            before_interval: Some((0.08, 0.1)),
+            after: 0.01,
+            after_interval: None,
+        }),
+        stiffness: None,
+    }
+}
+
 fn explained() -> Findings {
     let pinning = NamedCause {
         name: "pinning".to_owned(),
@@ -133,13 +156,28 @@ fn explained() -> Findings {
             train_rms: 1.11e-7,
             held_out_rms: 1.22e-7,
             dissipation_error: Some(0.092),
+            stiffness_error: Some(0.031),
+            ..Errors::default()
         },
         extended: Errors {
             train_rms: 3.3e-8,
             held_out_rms: 3.5e-8,
             dissipation_error: Some(0.011),
+            dissipation_interval: Some((0.009, 0.014)),
+            ..Errors::default()
         },
         gain: (0.287, Some((0.25, 0.331))),
+        levels: vec![
+            level("bolt-1", (400.0, 0.0), Some(5.0), 2e-4),
+            level("bolt-2", (800.0, 100.0), None, 9e-4),
+        ],
+        left_out: vec![LeftOut {
+            record: "bolt-1".to_owned(),
+            before: 2.1e-7,
+            after: 5.2e-8,
+            ratio: 0.248,
+            interval: Some((0.21, 0.29)),
+        }],
         unexplained: Unexplained {
             share: 0.02,
             places: vec!["record bolt-2, cycles 4–6, just after reversals".to_owned()],
@@ -179,6 +217,7 @@ fn clean() -> Findings {
         causes: Vec::new(),
         baseline: found.extended.clone(),
         gain: (1.0, None),
+        left_out: Vec::new(),
         unexplained: Unexplained::default(),
         next_experiment: None,
         ..found
@@ -263,9 +302,42 @@ fn json_follows_the_schema_field_by_field() {
             "rms": 3.46e-8, "unit": "m", "autoregression": 0.12,
             "method": "neighbouring steady cycles, differenced", "effective_samples": 3120.0,
         },
-        "baseline": {"train_rms": 1.11e-7, "held_out_rms": 1.22e-7, "dissipation_error": 0.092},
-        "extended": {"train_rms": 3.3e-8, "held_out_rms": 3.5e-8, "dissipation_error": 0.011},
-        "gain": {"held_out_rms_ratio": 0.287, "interval": [0.25, 0.331]},
+        "baseline": {
+            "train_rms": 1.11e-7, "held_out_rms": 1.22e-7, "held_out_interval": null,
+            "dissipation_error": 0.092, "dissipation_interval": null,
+            "stiffness_error": 0.031, "stiffness_interval": null,
+        },
+        "extended": {
+            "train_rms": 3.3e-8, "held_out_rms": 3.5e-8, "held_out_interval": null,
+            "dissipation_error": 0.011, "dissipation_interval": [0.009, 0.014],
+            "stiffness_error": null, "stiffness_interval": null,
+        },
+        "gain": {
+            "held_out_rms_ratio": 0.287, "interval": [0.25, 0.331],
+            "left_out_records": [{
+                "record": "bolt-1", "before": 2.1e-7, "after": 5.2e-8, "ratio": 0.248,
+                "interval": [0.21, 0.29],
+            }],
+        },
+        "levels": [{
+            "record": "bolt-1", "amplitude": 400.0, "mean": 0.0, "unit": "N", "rate": 5.0,
+            "cycles": 4, "held_out": false,
+            "energy": {
+                "measured": 2e-4, "unit": "J", "baseline_error": 0.09,
+                "baseline_interval": [0.08, 0.1], "extended_error": 0.01,
+                "extended_interval": null,
+            },
+            "stiffness": null,
+        }, {
+            "record": "bolt-2", "amplitude": 800.0, "mean": 100.0, "unit": "N", "rate": null,
+            "cycles": 1, "held_out": true,
+            "energy": {
+                "measured": 9e-4, "unit": "J", "baseline_error": 0.09,
+                "baseline_interval": [0.08, 0.1], "extended_error": 0.01,
+                "extended_interval": null,
+            },
+            "stiffness": null,
+        }],
         "unexplained": {
             "share": 0.02, "where": ["record bolt-2, cycles 4–6, just after reversals"],
             "correction": null,
@@ -326,7 +398,7 @@ fn json_names_every_verdict_and_reads_back() {
     assert_eq!(json::render(&clean())["next_experiment"], Value::Null);
     assert_eq!(
         json::render(&clean())["gain"],
-        json!({"held_out_rms_ratio": 1.0, "interval": null})
+        json!({"held_out_rms_ratio": 1.0, "interval": null, "left_out_records": []})
     );
 }
 
@@ -335,6 +407,8 @@ fn broken() -> Findings {
     let nan = f64::NAN;
     let mut found = explained();
     found.gain = (nan, Some((nan, f64::INFINITY)));
+    found.left_out.clear();
+    found.levels[0].amplitude = nan;
     found.noise.rms = nan;
     found.noise.effective_samples = nan;
     found.baseline.held_out_rms = nan;
@@ -360,7 +434,7 @@ fn numbers_that_are_none_break_nothing() {
     let value = json::render(&found);
     assert_eq!(
         value["gain"],
-        json!({"held_out_rms_ratio": null, "interval": [null, null]})
+        json!({"held_out_rms_ratio": null, "interval": [null, null], "left_out_records": []})
     );
     assert_eq!(value["noise"]["rms"], Value::Null);
     assert_eq!(value["causes"][0]["parameters"][0]["value"], Value::Null);
@@ -509,9 +583,9 @@ fn the_page_needs_nothing_else() {
         );
     }
     assert!(page.trim_start().starts_with("<!DOCTYPE html>"));
-    // Two records with four plots each, and the evidence.
-    assert_eq!(page.matches("<svg").count(), 9);
-    assert_eq!(page.matches("</svg>").count(), 9);
+    // Two records with four plots each, the loss over amplitude, and the evidence.
+    assert_eq!(page.matches("<svg").count(), 10);
+    assert_eq!(page.matches("</svg>").count(), 10);
     assert!(page.contains("force [kN]") || page.contains("force [N]"));
     assert!(page.contains("displacement [µm]"));
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
@@ -588,7 +662,7 @@ fn drawings_are_well_formed_and_small_for_long_records() {
     let page = drawn(&found);
     kept("report_long.html", &page);
     let drawings: Vec<&str> = page.split("<svg").skip(1).collect();
-    assert_eq!(drawings.len(), 5);
+    assert_eq!(drawings.len(), 6);
     for drawing in drawings {
         let end = drawing.find("</svg>").expect("an end") + "</svg>".len();
         let markup = format!("<svg{}", &drawing[..end]);
@@ -636,6 +710,7 @@ fn only_what_was_found_is_drawn() {
     let mut bare = explained();
     bare.curves.clear();
     bare.candidates.clear();
+    bare.levels.clear();
     assert!(!drawn(&bare).contains("<svg"));
 }
 
@@ -650,6 +725,10 @@ fn what_lies_beyond_the_verdict_is_shown() {
             lambda: 4.25,
             baseline: 310.0,
             rivals: vec![("sensor_delay".to_owned(), 4.25)],
+            row: vec![
+                ("none".to_owned(), 310.0),
+                ("sensor_delay".to_owned(), 4.25),
+            ],
         }],
         experiment: None,
         dummy: vec![Dummy {
@@ -682,6 +761,7 @@ fn what_lies_beyond_the_verdict_is_shown() {
         "cube of the input",
         "What this loading can tell apart",
         "sensor delay (4.25)",
+        "What is mistaken for what",
         "it belongs to the measuring chain",
     ] {
         assert!(page.contains(words), "{words}");

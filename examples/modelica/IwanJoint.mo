@@ -1,17 +1,5 @@
 within ;
 package IwanJoint "An exported joint between two flanges"
-  annotation (Documentation(info="<html>
-<p>Import the archive that <code>iwan export JOINT.json -o joint.fmu --drive displacement</code>
-wrote: most tools then make a block <code>IwanJoint_fmu</code> with input
-<code>displacement</code> and output <code>force</code>. Put its name where
-<code>Unit</code> is redeclared below, and <code>Joint</code> goes between two translational
-flanges like a spring.</p>
-<p>The unit is stepped by the tool's co-simulation interface: its output is held between
-communication points. Choose the communication interval by
-<code>iwan check joint.fmu RECORD --step SECONDS</code>; fifty points per period of the fastest
-cycle lose 0.2 % of the dissipation.</p>
-</html>"));
-
   partial block Interface "What every exported joint driven in displacement has"
     Modelica.Blocks.Interfaces.RealInput displacement(unit="m");
     Modelica.Blocks.Interfaces.RealOutput force(unit="N");
@@ -52,4 +40,16 @@ cycle lose 0.2 % of the dissipation.</p>
     connect(joint.flange_b, right.flange_a);
     annotation (experiment(StopTime=0.5, Interval=2.5e-5));
   end Resonator;
+
+  annotation (Documentation(info="<html>
+<p>Import the archive that <code>iwan export JOINT.json -o joint.fmu --drive displacement</code>
+wrote: most tools then make a block <code>IwanJoint_fmu</code> with input
+<code>displacement</code> and output <code>force</code>. Put its name where
+<code>Unit</code> is redeclared below, and <code>Joint</code> goes between two translational
+flanges like a spring.</p>
+<p>The unit is stepped by the tool's co-simulation interface: its output is held between
+communication points. Choose the communication interval by
+<code>iwan check joint.fmu RECORD --step SECONDS</code>; fifty points per period of the fastest
+cycle lose 0.2 % of the dissipation.</p>
+</html>"));
 end IwanJoint;

@@ -2,20 +2,18 @@
 
     python examples/resonator/resonator.py FOLDER [--iwan target/release/iwan]
 
-Exports joint.json driven in displacement, builds the unit of the two bodies (mass.c) with the
-system's C compiler, and runs the pair twice: with a velocity Verlet master in this file, and
-as resonator.ssp in fmpy; writes both units, the package and decay.csv into FOLDER and prints the
-energy balance and the damping of every cycle beside the closed form.
+Exports joint.json driven in displacement and driven in force, builds the unit of the two bodies for
+either with the system's C compiler, and runs both pairs twice: with the masters of masters.py, and
+as packages in fmpy. Writes units, packages and decay.csv into FOLDER and prints the energy balances
+and the damping of every cycle beside the closed form.
 
 The arrangement is that of L. Gaul and J. Lenz, Nonlinear dynamics of structures assembled by bolted
-joints, Acta Mechanica 125 (1997): the joint is the only spring and the only damper between two free
-bodies.
+joints, Acta Mechanica 125 (1997); the joint is this project's.
 """
 
 import argparse
 import json
 import os
-import shutil
 import subprocess
 import sys
 import zipfile
@@ -23,53 +21,26 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import fmpy
-import fmpy.ssp.simulation
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from masters import (  # noqa: E402
+    Decay,
+    decay,
+    decay_of_package,
+    difference,
+    imbalance_of_package,
+)
 
 HERE = Path(__file__).resolve().parent
-REDUCED_MASS = 7.0  # two bodies of 14 kg [kg]
-START_VELOCITY = 0.023  # of one body against the other after the blow [m/s]
-STEP = 2.5e-5  # about 200 steps per period [s]
-DURATION = 0.5  # [s]
-SIGNALS = ["force", "dissipation", "stored_energy", "slip_displacement"]
-
-
-@dataclass
-class Decay:
-    """A free decay, SI units: one value per communication point."""
-
-    time: np.ndarray
-    displacement: np.ndarray
-    velocity: np.ndarray
-    force: np.ndarray
-    dissipation: np.ndarray
-    stored_energy: np.ndarray
-    slip_displacement: np.ndarray
-
-    @property
-    def kinetic(self) -> np.ndarray:
-        """Of the relative motion [J]."""
-        return 0.5 * REDUCED_MASS * self.velocity**2
-
-    def imbalance(self) -> float:
-        """Largest share by which kinetic, stored and dissipated energy miss the blow's."""
-        total = self.kinetic + self.stored_energy + self.dissipation
-        return float(np.abs(total / total[0] - 1.0).max())
-
-    def cycles(self) -> "Cycles":
-        """From peak to peak of the slip, the first cycle left out: it holds the virgin loading."""
-        slip = self.slip_displacement
-        inner = (slip[1:-1] >= slip[:-2]) & (slip[1:-1] > slip[2:]) & (slip[1:-1] > 0.0)
-        peaks = np.flatnonzero(inner)[1:] + 1
-        # Between the samples the top of a parabola; dissipation is flat there.
-        top = [vertex(slip[p - 1 : p + 2]) for p in peaks]
-        force = [vertex(self.force[p - 1 : p + 2]) for p in peaks]
-        middle = [0.5 * (a + b) for a, b in zip(top[:-1], top[1:], strict=True)]
-        forces = [0.5 * (a + b) for a, b in zip(force[:-1], force[1:], strict=True)]
-        return Cycles(
-            np.array(forces), np.array(middle), np.diff(self.dissipation[peaks]), self.time[peaks]
-        )
+# Name of the bodies' source and unit, by what the joint is driven in.
+BODIES = {
+    "displacement": ("bodies", "Bodies"),
+    "force": ("bodies_by_force", "BodiesByForce"),
+}
+# What the joint answers with.
+ANSWER = {"displacement": "force", "force": "displacement"}
 
 
 @dataclass
@@ -80,6 +51,21 @@ class Cycles:
     slip: np.ndarray
     dissipation: np.ndarray
     peaks: np.ndarray
+
+    @staticmethod
+    def of(run: Decay) -> "Cycles":
+        """From peak to peak of the slip, the first cycle left out: it holds the virgin loading."""
+        slip = run.slip_displacement
+        inner = (slip[1:-1] >= slip[:-2]) & (slip[1:-1] > slip[2:]) & (slip[1:-1] > 0.0)
+        peaks = np.flatnonzero(inner)[1:] + 1
+        # Between the samples the top of a parabola; dissipation is flat there.
+        top = [vertex(slip[p - 1 : p + 2]) for p in peaks]
+        force = [vertex(run.force[p - 1 : p + 2]) for p in peaks]
+        middle = [0.5 * (a + b) for a, b in zip(top[:-1], top[1:], strict=True)]
+        forces = [0.5 * (a + b) for a, b in zip(force[:-1], force[1:], strict=True)]
+        return Cycles(
+            np.array(forces), np.array(middle), np.diff(run.dissipation[peaks]), run.time[peaks]
+        )
 
 
 def vertex(three: np.ndarray) -> float:
@@ -119,109 +105,49 @@ class ClosedForm:
         return self.of_slip(force / self.stiffness)
 
 
-def export_joint(iwan: Path, folder: Path) -> Path:
-    """The joint as a unit that is driven in displacement."""
-    archive = folder / "joint.fmu"
-    command = [iwan, "export", HERE / "joint.json", "-o", archive, "--drive", "displacement"]
+def export_joint(iwan: Path, folder: Path, drive: str = "displacement") -> Path:
+    """The joint as a unit under a drive."""
+    archive = folder / f"joint-{drive}.fmu"
+    command = [iwan, "export", HERE / "joint.json", "-o", archive, "--drive", drive]
     subprocess.run(command, check=True, capture_output=True)
     return archive
 
 
-def build_bodies(folder: Path) -> Path:
-    """The unit of the bodies, for this machine: compiled with the standard's headers from fmpy."""
+def build_bodies(folder: Path, drive: str = "displacement") -> Path:
+    """The bodies for such a joint, compiled for this machine with the headers that fmpy has."""
+    source, identifier = BODIES[drive]
     headers = Path(fmpy.__file__).parent / "c-code"
-    library = folder / "Bodies.so"
-    command = [os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", f"-I{headers}"]
-    subprocess.run([*command, "-o", library, HERE / "mass.c"], check=True)
-    archive = folder / "bodies.fmu"
+    library = folder / f"{identifier}.so"
+    command = [os.environ.get("CC", "cc"), "-O2", "-Wall", "-shared", "-fPIC", f"-I{headers}"]
+    subprocess.run([*command, "-o", library, HERE / f"{source}.c"], check=True)
+    archive = folder / f"{source}.fmu"
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as content:
-        content.write(HERE / "mass.xml", "modelDescription.xml")
-        content.write(library, "binaries/linux64/Bodies.so")
+        content.write(HERE / f"{source}.xml", "modelDescription.xml")
+        content.write(library, f"binaries/linux64/{identifier}.so")
     return archive
 
 
-def package(joint: Path, bodies: Path, folder: Path) -> Path:
+def package(joint: Path, bodies: Path, folder: Path, drive: str = "displacement") -> Path:
     """The pair with its connections as a System Structure Package."""
-    archive = folder / "resonator.ssp"
+    archive = folder / f"resonator-{drive}.ssp"
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as content:
-        content.write(HERE / "SystemStructure.ssd", "SystemStructure.ssd")
+        content.write(HERE / f"{drive}.ssd", "SystemStructure.ssd")
         content.write(joint, "resources/joint.fmu")
         content.write(bodies, "resources/bodies.fmu")
     return archive
 
 
-def decay(joint: Path, step: float = STEP, start_velocity: float = START_VELOCITY) -> Decay:
-    """Free decay under a velocity Verlet master: the bodies here, the joint in its unit."""
-    description = fmpy.read_model_description(str(joint))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    folder = fmpy.extract(str(joint))
-    unit = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=folder,
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="joint",
-    )
-    count = round(DURATION / step)
-    rows = np.empty((count + 1, 3 + len(SIGNALS)))
-    driven, read = [references["displacement"]], [references[name] for name in SIGNALS]
-    try:
-        unit.instantiate()
-        unit.setupExperiment(startTime=0.0)
-        unit.enterInitializationMode()
-        unit.exitInitializationMode()
-        displacement, velocity = 0.0, start_velocity
-        answers = unit.getReal(read)
-        rows[0] = [0.0, displacement, velocity, *answers]
-        for row in range(1, count + 1):
-            pushed = -answers[0] / REDUCED_MASS
-            displacement += step * velocity + 0.5 * step**2 * pushed
-            unit.setReal(driven, [displacement])
-            unit.doStep((row - 1) * step, step)
-            answers = unit.getReal(read)
-            velocity += 0.5 * step * (pushed - answers[0] / REDUCED_MASS)
-            rows[row] = [row * step, displacement, velocity, *answers]
-        unit.terminate()
-    finally:
-        unit.freeInstance()
-        shutil.rmtree(folder, ignore_errors=True)
-    return Decay(*rows.T)
-
-
-def decay_of_package(archive: Path) -> np.ndarray:
-    """The same run by fmpy's own master for packages: all units step at once."""
-    result = fmpy.ssp.simulation.simulate_ssp(str(archive), stop_time=DURATION, step_size=STEP)
-    return np.array(result["joint.force"])
-
-
-def difference(force: np.ndarray, run: Decay) -> float:
-    """Largest difference of two runs' forces over the largest force.
-
-    Row i of a package's run is the end of step i. The first is left out: units that all step at
-    once get their first inputs after it.
-    """
-    both = min(len(force), len(run.force) - 1)
-    apart = np.abs(force[1:both] - run.force[2 : both + 1]).max()
-    return float(apart / np.abs(run.force).max())
-
-
-def main() -> int:
-    """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--iwan", type=Path, default=HERE.parents[1] / "target/release/iwan")
-    arguments = parser.parse_args()
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    joint = export_joint(arguments.iwan.resolve(), arguments.folder)
-    archive = package(joint, build_bodies(arguments.folder), arguments.folder)
-    run, law = decay(joint), ClosedForm.read(HERE / "joint.json")
-    units = {"time": "s", "displacement": "m", "velocity": "m/s", "force": "N"}
+def table(run: Decay) -> tuple[str, np.ndarray]:
+    """Header and rows of decay.csv."""
+    units = {"time": "s", "strain": "m", "velocity": "m/s", "force": "N", "displacement": "m"}
     units |= {"dissipation": "J", "stored_energy": "J", "slip_displacement": "m"}
-    table = np.column_stack([getattr(run, name) for name in units])
     header = ",".join(f"{name} [{unit}]" for name, unit in units.items())
-    path = arguments.folder / "decay.csv"
-    np.savetxt(path, table, delimiter=",", header=header, comments="", fmt="%.9g")
-    cycles = run.cycles()
-    print(f"energy: kinetic + stored + dissipated within {run.imbalance():.1e} of the blow's")
+    return header, np.column_stack([getattr(run, name) for name in units])
+
+
+def show(run: Decay, law: ClosedForm) -> None:
+    """Every tenth of the cycles beside the closed form."""
+    cycles = Cycles.of(run)
     print("   F_0 [N]   D [J]       closed form  damping ratio   frequency")
     every = max(1, len(cycles.force) // 10)
     for i in range(0, len(cycles.force), every):
@@ -234,8 +160,38 @@ def main() -> int:
             f"{cycles.force[i]:10.2f}  {cycles.dissipation[i]:.4e}  {closed:.4e}  "
             f"{100 * ratio:8.4f} %   {1 / period:.3f} Hz"
         )
-    apart = difference(decay_of_package(archive), run)
-    print(f"resonator.ssp in fmpy: force within {100 * apart:.2g} % of the largest")
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--iwan", type=Path, default=HERE.parents[1] / "target/release/iwan")
+    arguments = parser.parse_args()
+    folder, iwan = arguments.folder, arguments.iwan.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    reference = None
+    for drive in BODIES:
+        joint = export_joint(iwan, folder, drive)
+        run = decay(joint)
+        archive = package(joint, build_bodies(folder, drive), folder, drive)
+        each = run.steps_of_the_unit / (len(run.time) - 1)
+        print(f"joint driven in {drive}: {each:.2f} steps of the unit per step of the master")
+        print(f"  kinetic + stored + dissipated within {run.imbalance():.1e} of the blow's")
+        if reference is None:
+            reference = run
+            show(run, ClosedForm.read(HERE / "joint.json"))
+            header, rows = table(run)
+            options = {"delimiter": ",", "header": header, "comments": "", "fmt": "%.9g"}
+            np.savetxt(folder / "decay.csv", rows, **options)
+        else:
+            apart = np.abs(run.force - reference.force).max() / np.abs(reference.force).max()
+            print(f"  force within {apart:.1e} of the run driven in displacement")
+        answer = ANSWER[drive]
+        result = decay_of_package(archive)
+        apart = difference(result[f"joint.{answer}"], reference, answer)
+        print(f"  {archive.name} in fmpy: {answer} within {100 * apart:.2g} % of the largest,")
+        print(f"  energies within {imbalance_of_package(result):.1e} of the blow's")
     return 0
 
 

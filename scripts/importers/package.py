@@ -1,10 +1,11 @@
-"""resonator.ssp run by two native importers, against the master of the example: libcosim, and the
-program `ecos`, in whose process there is no Python.
+"""The packages of examples/resonator run by two native importers, against the example's own master:
+libcosim, and the program `ecos`, in whose process there is no Python.
 
-    python package.py IWAN FOLDER
+    python package.py IWAN FOLDER libcosim|ecos displacement|force
 
-Leaves in FOLDER/libcosim.txt and FOLDER/ecos.txt the largest difference of the joint's force over
-its largest, from the second step on; libcosim writes its log to the standard output.
+The second names what the joint is driven in. Leaves in FOLDER/IMPORTER-DRIVE.txt the largest
+difference of the velocity of the bodies over its largest, from the second step on; libcosim writes
+its log to the standard output.
 """
 
 import csv
@@ -16,44 +17,46 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-from libcosimpy.CosimEnums import CosimVariableType
-from libcosimpy.CosimExecution import CosimExecution
-from libcosimpy.CosimObserver import CosimObserver
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "resonator"))
 
+import masters  # noqa: E402
 import resonator  # noqa: E402
 
-FORCE = 0  # value reference of the joint's force, the same in every export
+VELOCITY = 3  # value reference in both units of the bodies
 
 
 def libcosim(package: Path, folder: Path) -> np.ndarray:
-    """Force at the end of every step."""
-    unpacked = folder / "resonator"
+    """Velocity at the end of every step."""
+    from libcosimpy.CosimEnums import CosimVariableType
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+
+    unpacked = folder / package.stem
     with zipfile.ZipFile(package) as content:
         content.extractall(unpacked)
-    nanoseconds = round(resonator.STEP * 1e9)
+    nanoseconds = round(masters.STEP * 1e9)
     execution = CosimExecution.from_ssp_file(ssp_path=str(unpacked), step_size=nanoseconds)
-    count = round(resonator.DURATION / resonator.STEP)
+    count = round(masters.DURATION / masters.STEP)
     observer = CosimObserver.create_time_series(buffer_size=count + 1)
     execution.add_observer(observer)
-    index = execution.slave_index_from_instance_name("joint")
-    observer.start_time_series(index, FORCE, CosimVariableType.REAL)
-    if not execution.simulate_until(round(resonator.DURATION * 1e9)):
+    index = execution.slave_index_from_instance_name("bodies")
+    observer.start_time_series(index, VELOCITY, CosimVariableType.REAL)
+    if not execution.simulate_until(round(masters.DURATION * 1e9)):
         raise RuntimeError("libcosim stopped before the end")
-    _, _, force = observer.time_series_real_samples(index, FORCE, 1, count)
-    return np.array(force)
+    _, _, velocity = observer.time_series_real_samples(index, VELOCITY, 1, count)
+    return np.array(velocity)
 
 
 def ecos(package: Path, folder: Path) -> np.ndarray:
-    """Force at the end of every step; the program writes six decimals."""
+    """Velocity at the end of every step; the program writes six decimals."""
     program = ecos_program(folder)
-    steps = ["--stopTime", str(resonator.DURATION), "--stepSize", str(resonator.STEP)]
+    steps = ["--stopTime", str(masters.DURATION), "--stepSize", str(masters.STEP)]
     command = [program, "simulate", "--path", package.resolve(), *steps]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
-    with (folder / "resonator.csv").open() as file:
+    with (folder / f"{package.stem}.csv").open() as file:
         rows = list(csv.reader(file, skipinitialspace=True))
-    column = rows[0].index("joint::force[REAL]")
+    column = rows[0].index("bodies::velocity[REAL]")
     return np.array([float(row[column]) for row in rows[2:]])
 
 
@@ -68,17 +71,16 @@ def ecos_program(folder: Path) -> Path:
 
 def main() -> int:
     """Command line."""
-    iwan, folder = Path(sys.argv[1]), Path(sys.argv[2])
+    iwan, folder, name, drive = Path(sys.argv[1]), Path(sys.argv[2]), *sys.argv[3:5]
+    importer = {"libcosim": libcosim, "ecos": ecos}[name]
     folder.mkdir(parents=True, exist_ok=True)
-    joint = resonator.export_joint(iwan, folder)
-    package = resonator.package(joint, resonator.build_bodies(folder), folder)
-    run, count = resonator.decay(joint), round(resonator.DURATION / resonator.STEP)
-    for importer in (libcosim, ecos):
-        force = importer(package, folder)
-        if len(force) != count:
-            raise RuntimeError(f"{importer.__name__}: {len(force)} samples instead of {count}")
-        apart = resonator.difference(force, run)
-        (folder / f"{importer.__name__}.txt").write_text(f"{apart!r}\n")
+    joint = resonator.export_joint(iwan, folder, drive)
+    archive = resonator.package(joint, resonator.build_bodies(folder, drive), folder, drive)
+    velocity, count = importer(archive, folder), round(masters.DURATION / masters.STEP)
+    if len(velocity) != count:
+        raise RuntimeError(f"{name}: {len(velocity)} samples instead of {count}")
+    apart = masters.difference(velocity, masters.decay(joint), "velocity")
+    (folder / f"{name}-{drive}.txt").write_text(f"{apart!r}\n")
     return 0
 
 

@@ -1,11 +1,12 @@
 """What a built library needs and shows, read from the file itself.
 
-    python scripts/platforms/library.py PLATFORM FILE
+    python scripts/platforms/library.py PLATFORM FILE [--here]
 
 Prints one line: size, the newest glibc that it asks for or the libraries of Windows, the count of
 exported functions. Exit status 1 where a library would not load on the systems that it is for: a
 newer glibc than 2.17, a library that wine 8 and older systems of Windows lack, an exported symbol
-that is no function of FMI, or a path of the machine that built it.
+that is no function of FMI, or a path of the machine that built it. With --here it is for the
+machine that built it: any glibc is told, and it and the machine's own paths are let pass.
 """
 
 import re
@@ -80,7 +81,7 @@ def pe(data: bytes) -> tuple[list[str], list[str]]:
 
 def main() -> int:
     """Command line."""
-    platform, path = sys.argv[1], Path(sys.argv[2])
+    platform, path, here = sys.argv[1], Path(sys.argv[2]), "--here" in sys.argv[3:]
     data = path.read_bytes()
     faults = []
     if platform.startswith("win"):
@@ -97,12 +98,14 @@ def main() -> int:
         glibc = [v.removeprefix("GLIBC_") for v in versions if v.startswith("GLIBC_")]
         newest = max(tuple(int(part) for part in v.split(".")) for v in glibc)
         needs = "glibc " + ".".join(map(str, newest))
-        if newest > OLDEST_GLIBC:
+        if here:
+            needs += ", as linked for this machine"
+        elif newest > OLDEST_GLIBC:
             faults.append(f"needs {needs}")
     strangers = [name for name in names if not FMI_FUNCTION.fullmatch(name)]
     if strangers or not names:
         faults.append(f"exports {strangers or 'nothing'}")
-    if found := MACHINE_PATH.search(data):
+    if not here and (found := MACHINE_PATH.search(data)):
         faults.append(f"holds the path {found[0].decode()}")
     print("; ".join(faults) or f"{len(data) / 1024:.0f} KiB, {needs}, {len(names)} FMI functions")
     return 1 if faults else 0

@@ -1,11 +1,13 @@
 """Writes what scripts/platforms/host.c reads, and compares what it printed.
 
-    python scripts/platforms/load.py write LOAD.txt
+    python scripts/platforms/load.py write LOAD.txt LOAD.csv
     python scripts/platforms/load.py compare REFERENCE.txt OTHER.txt
+    python scripts/platforms/load.py against SIMULATED.csv OTHER.txt
 
 The load is a growing two-tone force with nested loops, in the bits of its doubles, so that no two
-systems round it differently. `compare` prints one line: identical bits, or the largest difference
-of any signal relative to that signal's largest value, and exit status 1.
+systems round it differently; as a table it is for `iwan simulate`. `compare` and `against` print
+one line: identical bits, or the largest difference of any signal relative to that signal's largest
+value, and exit status 1.
 """
 
 import math
@@ -18,6 +20,8 @@ DURATION = 4.0
 LARGEST_FORCE = 700.0
 SIGNALS = ["force", "displacement", "dissipation", "dissipation_rate", "stored_energy"]
 SIGNALS += ["slip_displacement", "tangent_stiffness"]
+# What `iwan simulate` writes after the time.
+SIMULATED = ["force", "displacement", "dissipation", "stored_energy"]
 
 
 def bits(value: float) -> str:
@@ -25,15 +29,18 @@ def bits(value: float) -> str:
     return struct.pack(">d", value).hex()
 
 
-def write(path: Path) -> None:
-    """Writes the load and prints its count of rows."""
-    lines = []
+def write(path: Path, table: Path) -> None:
+    """Writes the load in both forms and prints its count of rows."""
+    lines, rows = [], ["time [s],force [N]"]
     for row in range(ROWS):
         time = DURATION * row / (ROWS - 1)
         turns = 2.0 * math.pi * time
         shape = (math.sin(2.0 * turns) + 0.5 * math.sin(11.0 * turns)) / 1.5
-        lines.append(f"{bits(time)} {bits(LARGEST_FORCE * time / DURATION * shape)}")
+        force = LARGEST_FORCE * time / DURATION * shape
+        lines.append(f"{bits(time)} {bits(force)}")
+        rows.append(f"{time!r},{force!r}")
     path.write_text("\n".join(lines) + "\n")
+    table.write_text("\n".join(rows) + "\n")
     print(ROWS)
 
 
@@ -43,17 +50,34 @@ def read(path: Path) -> list[list[float]]:
     return [[struct.unpack(">d", bytes.fromhex(cell))[0] for cell in row] for row in rows]
 
 
+def as_bits(rows: list[list[float]]) -> list[list[str]]:
+    """So that 0 and -0 differ."""
+    return [[bits(value) for value in row] for row in rows]
+
+
 def compare(reference: Path, other: Path) -> bool:
     """Prints how far two hosts' rows lie apart; true where they are the same bits."""
-    expected, came = read(reference), read(other)
+    return same(read(reference), read(other), SIGNALS)
+
+
+def against(simulated: Path, other: Path) -> bool:
+    """The same for a host's rows and the table of `iwan simulate`."""
+    lines = simulated.read_text().splitlines()[1:]
+    expected = [[float(cell) for cell in line.split(",")[1:]] for line in lines]
+    places = [SIGNALS.index(name) for name in SIMULATED]
+    return same(expected, [[row[place] for place in places] for row in read(other)], SIMULATED)
+
+
+def same(expected: list[list[float]], came: list[list[float]], signals: list[str]) -> bool:
+    """Prints the comparison; a NaN is never the same."""
     if len(expected) != ROWS or len(came) != ROWS:
         print(f"{len(expected)} and {len(came)} rows instead of {ROWS}")
         return False
-    if reference.read_text().split() == other.read_text().split():
-        print(f"bit-identical ({ROWS} steps, {len(SIGNALS)} signals)")
+    if as_bits(expected) == as_bits(came):
+        print(f"bit-identical ({ROWS} steps, {len(signals)} signals)")
         return True
     largest, where = 0.0, ""
-    for index, name in enumerate(SIGNALS):
+    for index, name in enumerate(signals):
         scale = max(abs(row[index]) for row in expected)
         apart = max(abs(a[index] - b[index]) for a, b in zip(expected, came, strict=True))
         if scale == 0.0 or math.isnan(apart):
@@ -68,11 +92,13 @@ def compare(reference: Path, other: Path) -> bool:
 def main() -> int:
     """Command line."""
     match sys.argv[1:]:
-        case ["write", path]:
-            write(Path(path))
+        case ["write", path, table]:
+            write(Path(path), Path(table))
             return 0
         case ["compare", reference, other]:
             return 0 if compare(Path(reference), Path(other)) else 1
+        case ["against", simulated, other]:
+            return 0 if against(Path(simulated), Path(other)) else 1
     print(__doc__, file=sys.stderr)
     return 2
 

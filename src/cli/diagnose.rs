@@ -8,7 +8,7 @@ use crate::diagnose::amplitude_table::diagnose_tables;
 use crate::diagnose::experiment::{Experiment, Limits, Options};
 use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
-use crate::pack::{Archive, Library};
+use crate::pack::{Archive, FmiVersion, Library};
 use crate::read::Loaded;
 use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
@@ -174,7 +174,7 @@ fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
 
 /// The unit for this machine; said and left out where there is no library for it.
 fn archive(joint: &str, drive: Drive) -> anyhow::Result<Option<Vec<u8>>> {
-    let library = Library::of_this_machine()
+    let library = Library::of_this_machine(FmiVersion::Two)
         .map_err(|error| eprintln!("no joint.fmu is written: {error}"))
         .ok();
     let bytes =

@@ -63,7 +63,7 @@ fn archive(
     binaries: &[String],
 ) -> Result<Archive, PackError> {
     let libraries = if binaries.is_empty() {
-        vec![Library::of_this_machine()?]
+        vec![Library::of_this_machine(version)?]
     } else {
         binaries
             .iter()

@@ -1,6 +1,8 @@
 //! What a diagnosis found: one value from which text, HTML, JSON and plots are made.
 
 use super::experiment::Outlook;
+use super::left_out::LeftOut;
+use super::levels::Level;
 use crate::joint::Joint;
 
 /// The verdict, by what is left after the best set of causes.
@@ -82,8 +84,16 @@ pub struct Errors {
     pub train_rms: f64,
     /// On data that no fit has seen.
     pub held_out_rms: f64,
+    /// Its 95 % interval, by a bootstrap over whole held-out cycles, like the others below.
+    pub held_out_interval: Option<(f64, f64)>,
     /// Mean relative error of the energy per cycle, held out.
     pub dissipation_error: Option<f64>,
+    /// Its interval.
+    pub dissipation_interval: Option<(f64, f64)>,
+    /// Mean relative error of the stiffness (slope of the loop), held out.
+    pub stiffness_error: Option<f64>,
+    /// Its interval.
+    pub stiffness_interval: Option<(f64, f64)>,
 }
 
 /// The noise of the judged channel, estimated without a model where cycles repeat.
@@ -156,6 +166,10 @@ pub struct Findings {
     pub extended: Errors,
     /// held-out rms after over before, with its 95 % interval by block bootstrap.
     pub gain: (f64, Option<(f64, f64)>),
+    /// Loss and stiffness per level of the load.
+    pub levels: Vec<Level>,
+    /// Records held out whole; empty for a single record.
+    pub left_out: Vec<LeftOut>,
     /// What is left.
     pub unexplained: Unexplained,
     /// What this record cannot show, in sentences.

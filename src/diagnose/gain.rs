@@ -1,15 +1,10 @@
 //! What an extension gains on samples that no fit has seen.
 
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-
+use super::bootstrap::interval;
 use super::findings::Errors;
 use super::prepare::Bench;
 use crate::identify::{Fit, Form, Prediction, Problem};
 use crate::record::cycles::cycles;
-
-/// Resamples of the block bootstrap.
-const RESAMPLES: usize = 500;
 
 /// Held-out rms after over before, with its 95 % interval by a bootstrap over whole held-out
 /// cycles; an empty interval where fewer than three of them are held out.
@@ -18,50 +13,50 @@ pub fn ratio(
     before: &[Prediction],
     after: &[Prediction],
 ) -> (f64, Option<(f64, f64)>) {
-    let blocks = blocks(bench, before, after);
-    let of = |blocks: &mut dyn Iterator<Item = (f64, f64)>| {
-        let (mut old, mut new) = (0.0, 0.0);
-        for (b, a) in blocks {
-            old += b;
-            new += a;
+    let old = blocks(bench, before);
+    let new = blocks(bench, after);
+    let blocks: Vec<(f64, f64)> = old.iter().zip(&new).map(|(o, n)| (o.0, n.0)).collect();
+    let of = |blocks: &[(f64, f64)]| {
+        let sum = blocks
+            .iter()
+            .fold((0.0, 0.0), |s, b| (s.0 + b.0, s.1 + b.1));
+        if sum.0 > 0.0 {
+            (sum.1 / sum.0).sqrt()
+        } else {
+            1.0
         }
-        if old > 0.0 { (new / old).sqrt() } else { 1.0 }
     };
-    let value = of(&mut blocks.iter().copied());
-    if blocks.len() < 3 {
-        return (value, None);
-    }
-    // A fixed seed: the same records give the same interval.
-    let mut random = ChaCha8Rng::seed_from_u64(20_010_811);
-    let mut resampled: Vec<f64> = (0..RESAMPLES)
-        .map(|_| of(&mut (0..blocks.len()).map(|_| blocks[random.random_range(0..blocks.len())])))
-        .collect();
-    resampled.sort_by(f64::total_cmp);
-    let quantile = |q: f64| resampled[(q * (RESAMPLES - 1) as f64).round() as usize];
-    (value, Some((quantile(0.025), quantile(0.975))))
+    (of(&blocks), interval(&blocks, of))
 }
 
-/// Squared errors before and after in each held-out cycle (or run of samples without cycles).
-fn blocks(bench: &Bench, before: &[Prediction], after: &[Prediction]) -> Vec<(f64, f64)> {
+/// Where a channel is cut into blocks: at its cycles and around them, or evenly where it has too few.
+pub fn edges(input: &[f64]) -> Vec<usize> {
+    let mut edges: Vec<usize> = cycles(input).iter().map(|c| c.start).collect();
+    if edges.len() < 4 {
+        edges = (0..input.len())
+            .step_by((input.len() / 64).max(8))
+            .collect();
+    }
+    if edges.first() != Some(&0) {
+        edges.insert(0, 0);
+    }
+    edges.push(input.len());
+    edges
+}
+
+/// Squared errors in each held-out cycle (or run of samples without cycles), and their count.
+fn blocks(bench: &Bench, predictions: &[Prediction]) -> Vec<(f64, f64)> {
     let mut blocks = Vec::new();
     for (k, held) in bench.held.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
-        let mut edges: Vec<usize> = cycles(input).iter().map(|c| c.start).collect();
-        if edges.len() < 4 {
-            edges = (0..judged.len())
-                .step_by((judged.len() / 64).max(8))
-                .collect();
-        }
-        edges.push(judged.len());
-        for pair in edges.windows(2) {
-            let (mut old, mut new, mut count) = (0.0, 0.0, 0);
+        for pair in edges(input).windows(2) {
+            let (mut square, mut count) = (0.0, 0.0);
             for i in (pair[0]..pair[1]).filter(|&i| held[i]) {
-                old += (judged[i] - before[k].judged[i]).powi(2);
-                new += (judged[i] - after[k].judged[i]).powi(2);
-                count += 1;
+                square += (judged[i] - predictions[k].judged[i]).powi(2);
+                count += 1.0;
             }
-            if count > 0 {
-                blocks.push((old, new));
+            if count > 0.0 {
+                blocks.push((square, count));
             }
         }
     }
@@ -69,44 +64,72 @@ fn blocks(bench: &Bench, before: &[Prediction], after: &[Prediction]) -> Vec<(f6
 }
 
 /// Errors of one model in the judged channel's unit: on the fitted samples, on the held-out ones,
-/// and of the energy per held-out cycle.
+/// and of energy and stiffness per held-out cycle; intervals by a bootstrap over these cycles.
 pub fn errors(bench: &Bench, predictions: &[Prediction]) -> Errors {
-    let mut sums = [(0.0, 0.0); 2];
-    let (mut wrong, mut counted) = (0.0, 0.0);
+    let mut fitted = (0.0, 0.0);
+    let (mut energies, mut slopes) = (Vec::new(), Vec::new());
     for (k, held) in bench.held.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
-        for (i, &held) in held.iter().enumerate() {
-            let sum = &mut sums[usize::from(held)];
-            *sum = (
-                sum.0 + (judged[i] - predictions[k].judged[i]).powi(2),
-                sum.1 + 1.0,
-            );
+        let predicted = &predictions[k].judged;
+        for (i, _) in held.iter().enumerate().filter(|(_, held)| !**held) {
+            fitted.0 += (judged[i] - predicted[i]).powi(2);
+            fitted.1 += 1.0;
         }
+        let form = bench.whole.operators.form;
         for cycle in cycles(input)
             .iter()
             .filter(|c| held[c.start] && held[c.end - 1])
         {
-            let form = bench.whole.operators.form;
-            let measured = energy(form, input, judged, cycle.start, cycle.end);
-            let predicted = energy(form, input, &predictions[k].judged, cycle.start, cycle.end);
+            let loss = |y: &[f64]| energy(form, input, y, cycle.start, cycle.end);
+            let measured = loss(judged);
             if measured > 0.0 {
-                wrong += (predicted / measured - 1.0).abs();
-                counted += 1.0;
+                energies.push((loss(predicted) / measured - 1.0).abs());
+            }
+            let stiffness = |y: &[f64]| slope(form, input, y, cycle.start, cycle.end);
+            if let Some((measured, predicted)) = stiffness(judged).zip(stiffness(predicted)) {
+                slopes.push((predicted / measured - 1.0).abs());
             }
         }
     }
-    let rms = |sum: (f64, f64)| {
+    let rms = |blocks: &[(f64, f64)]| {
+        let sum = blocks
+            .iter()
+            .fold((0.0, 0.0), |s, b| (s.0 + b.0, s.1 + b.1));
         if sum.1 > 0.0 {
             (sum.0 / sum.1).sqrt()
         } else {
             f64::NAN
         }
     };
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
+    let held_out = blocks(bench, predictions);
     Errors {
-        train_rms: rms(sums[0]),
-        held_out_rms: rms(sums[1]),
-        dissipation_error: (counted > 0.0).then(|| wrong / counted),
+        train_rms: rms(&[fitted]),
+        held_out_rms: rms(&held_out),
+        held_out_interval: interval(&held_out, rms),
+        dissipation_error: (!energies.is_empty()).then(|| mean(&energies)),
+        dissipation_interval: interval(&energies, mean),
+        stiffness_error: (!slopes.is_empty()).then(|| mean(&slopes)),
+        stiffness_interval: interval(&slopes, mean),
     }
+}
+
+/// Slope of the loop over samples `from..to`, force over displacement \[N/m\]: of the line that
+/// fits the judged channel over the prescribed one best, so that noise on the judged channel does not
+/// bias it; `None` where it is not positive.
+pub fn slope(form: Form, input: &[f64], judged: &[f64], from: usize, to: usize) -> Option<f64> {
+    let (x, y) = (&input[from..to], &judged[from..to]);
+    let count = x.len().max(1) as f64;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
+    let (about_x, about_y) = (mean(x), mean(y));
+    let both = x.iter().zip(y);
+    let product: f64 = both.map(|(x, y)| (x - about_x) * (y - about_y)).sum();
+    let square: f64 = x.iter().map(|x| (x - about_x).powi(2)).sum();
+    let slope = match form {
+        Form::Play => square / product,
+        Form::Stop => product / square,
+    };
+    (slope.is_finite() && slope > 0.0).then_some(slope)
 }
 
 /// Energy `∮ F dU` over samples `from..to` \[J\] (trapezium rule, closed by a straight line).

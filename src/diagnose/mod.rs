@@ -1,12 +1,15 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
 pub mod amplitude_table;
+pub mod bootstrap;
 mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
 pub mod intervals;
 pub mod joint_parameters;
+pub mod left_out;
+pub mod levels;
 mod mains_phase;
 pub mod prepare;
 mod probability;
@@ -131,6 +134,7 @@ fn assemble(
     let structure_after = structure(&bench.whole, &whole.predict(&bench.whole));
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
+    let timed = records.iter().all(|r| r.time.is_some());
     let verdict = verdict::verdict(
         named.then(|| gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0),
         &structure_before,
@@ -170,6 +174,8 @@ fn assemble(
         baseline: gain::errors(bench, &before),
         extended: gain::errors(bench, &after),
         gain,
+        levels: levels::levels(bench, &before, &after, timed),
+        left_out: left_out::left_out(bench, &whole),
         unexplained: Unexplained {
             share: left,
             places: match verdict {

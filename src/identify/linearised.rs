@@ -1,10 +1,10 @@
 //! The model linearised at a fit: its normal equations, and how far what a linear combination of the
 //! unknowns owes to the samples scatters.
 
-use super::fit::{Slope, slopes};
-use super::march::Rows;
 use super::nonnegative::Normal;
 use super::problem::{Prediction, Prepared, Problem, Weighing};
+use super::rows::Rows;
+use super::slopes::{Slope, slopes};
 use crate::joint::effect::Acting;
 
 /// Counts of equal stretches the samples are cut into.

@@ -34,31 +34,6 @@ pub struct Step {
     pub carried: [f64; 2],
 }
 
-/// Rows of the dictionary along a pass, with what each carries on to later ones.
-#[derive(Debug, Clone, Default)]
-pub struct Rows {
-    before: [Vec<f64>; 2],
-}
-
-impl Rows {
-    /// Row at the last accepted sample: d judged / d coefficient, `D_i = share P_i + Σ carried_k
-    /// D_{i−k}`. Checked against differences of whole passes by this room's tests.
-    pub fn next(&mut self, march: &March, step: Step, row: &mut [f64]) {
-        march.row(step, row);
-        if !march.has[index(Place::BesideJoint)] {
-            return;
-        }
-        for (before, share) in self.before.iter().zip(step.carried) {
-            for (value, earlier) in row.iter_mut().zip(before) {
-                *value += share * earlier;
-            }
-        }
-        self.before.swap(0, 1);
-        self.before[0].clear();
-        self.before[0].extend_from_slice(row);
-    }
-}
-
 /// What is known of where the one root of an increasing equation lies.
 struct Bracket {
     low: f64,
@@ -131,8 +106,13 @@ impl<'a> March<'a> {
         }
     }
 
+    /// True where a change of the model is carried on from sample to sample.
+    pub(super) fn carries(&self) -> bool {
+        self.has[index(Place::BesideJoint)]
+    }
+
     /// What the judged channel gains at once per unit of each coefficient, the elastic one first.
-    fn row(&self, step: Step, row: &mut [f64]) {
+    pub(super) fn row(&self, step: Step, row: &mut [f64]) {
         row[0] = step.share
             * match self.operators.form {
                 Form::Play => self.network_force(),

@@ -14,10 +14,12 @@ pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
+pub mod rows;
 pub mod scatter;
 pub mod score;
 pub mod seed;
 pub mod series;
+mod slopes;
 pub mod table;
 
 pub use family::{FamilyError, FamilyFit};

@@ -2,9 +2,10 @@
 //! grid of thresholds make of them.
 
 use super::finer::finer;
-use super::fit::{Fit, Slope};
+use super::fit::Fit;
 use super::linearised::{Influence, Linearised};
 use super::problem::Problem;
+use super::slopes::Slope;
 
 /// Standard deviation of every value of the fit's effects, by effect and parameter; infinite where
 /// the data do not bound a value.

@@ -2,9 +2,9 @@
 //! baseline is refitted with it. One pass of the dictionary serves a whole batch of effects.
 
 use super::fit::Fit;
-use super::march::Rows;
 use super::nonnegative::Normal;
 use super::problem::{Problem, Weighing};
+use super::rows::Rows;
 use crate::joint::effect::Acting;
 
 /// The score of one starting shape.
@@ -35,7 +35,7 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
     let held: usize = acting.iter().map(|a| a.values.len()).sum();
     let size = columns + records + held;
     let at = problem.predict(&current.coefficients, &acting);
-    let derivatives = super::fit::slopes(problem, &current.coefficients, &acting, &at);
+    let derivatives = super::slopes::slopes(problem, &current.coefficients, &acting, &at);
     let extras: Vec<Vec<Vec<f64>>> = batch
         .iter()
         .map(|tried| {

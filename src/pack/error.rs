@@ -38,7 +38,7 @@ pub enum PackError {
         looked: Vec<PathBuf>,
     },
     /// A platform that FMI does not name.
-    #[error("platform `{came}`: expected one of {}", super::library::PLATFORMS.join(", "))]
+    #[error("platform `{came}`: expected one of {}", super::platform::PLATFORMS.map(|known| known.name).join(", "))]
     Platform {
         /// What was asked for.
         came: String,

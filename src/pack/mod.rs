@@ -9,6 +9,7 @@ mod licence;
 mod model_description;
 mod model_description_3;
 mod nominal;
+mod platform;
 pub mod terminals;
 mod unit;
 mod version;
@@ -18,6 +19,7 @@ pub use experiment::Experiment;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};
 pub use licence::LINKED;
 pub use nominal::Nominal;
+pub use platform::{PLATFORMS, Platform};
 pub use version::FmiVersion;
 
 use crate::joint::{Drive, Joint};
@@ -161,10 +163,10 @@ fn check_platforms(libraries: &[Library]) -> Result<(), PackError> {
     for (index, library) in libraries.iter().enumerate() {
         let twin = libraries[..index]
             .iter()
-            .find(|other| other.platform == library.platform);
+            .find(|other| other.platform.name == library.platform.name);
         if let Some(other) = twin {
             return Err(PackError::PlatformTwice {
-                platform: library.platform,
+                platform: library.platform.name,
                 first: other.path.clone(),
                 second: library.path.clone(),
             });

@@ -15,8 +15,8 @@ const APART: usize = 2;
 /// Samples of one side that are asked.
 const ASKED: usize = 4;
 
-/// Typical deviations beyond which a sample stands alone. Of a million normal ones none does (test
-/// below), and a fourteenfold outlier does.
+/// Typical deviations beyond which a sample stands alone: of a million normal ones none does, and a
+/// fourteenfold outlier does (tests/outliers.rs).
 const ALONE: f64 = 9.0;
 
 /// Share of the samples above which the channel is like that.
@@ -99,39 +99,4 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let place = (share * (values.len().max(1) - 1) as f64).round() as usize;
     values.get(place).copied().unwrap_or(0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand::{Rng, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
-
-    /// Nearly normal noise of unit variance: the sum of twelve uniform numbers.
-    fn normal(random: &mut ChaCha8Rng) -> f64 {
-        (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
-    }
-
-    #[test]
-    fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
-        let mut random = ChaCha8Rng::seed_from_u64(5);
-        for neighbours in [Neighbours::Level, Neighbours::Line] {
-            let mut channel: Vec<f64> = (0..1_000_000).map(|_| normal(&mut random)).collect();
-            assert_eq!(outliers(&channel, neighbours), Vec::new());
-            channel[777] += 25.0;
-            channel[778] += 20.0;
-            let found: Vec<usize> = outliers(&channel, neighbours).iter().map(|o| o.0).collect();
-            assert_eq!(found, [777, 778]);
-        }
-        let triangle: Vec<f64> = (0..4000)
-            .map(|i| ((i % 200) as f64 - 100.0).abs() + 0.01 * normal(&mut random))
-            .collect();
-        assert_eq!(outliers(&triangle, Neighbours::Line), Vec::new());
-        let mut sine: Vec<f64> = (0..4000).map(|i| (0.06 * i as f64).sin()).collect();
-        assert_eq!(outliers(&sine, Neighbours::Line), Vec::new());
-        sine[1234] += 0.5;
-        let found = outliers(&sine, Neighbours::Line);
-        assert_eq!(found.len(), 1);
-        assert!((found[0].1 - (0.06_f64 * 1234.0).sin()).abs() < 0.1);
-    }
 }

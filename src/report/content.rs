@@ -4,12 +4,13 @@ use minijinja::context;
 use minijinja::value::Value;
 
 use super::CausePage;
+use super::compared::errors;
 use super::plots::Figure;
 use super::quantity::{estimate, number, percent, quantity};
 use super::symbols::marked_up;
 use super::wording;
 use crate::diagnose::Findings;
-use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause, Verdict};
+use crate::diagnose::findings::{Candidate, Estimate, NamedCause, Verdict};
 
 /// Verdict, warning and the figures that sum the page up.
 pub(super) fn banner(findings: &Findings) -> Value {
@@ -96,17 +97,9 @@ fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
 /// Errors before and after.
 pub(super) fn gain(findings: &Findings) -> Value {
     let unit = &findings.unit;
-    let row = |label: &str, errors: &Errors| {
-        context! {
-            label,
-            train => quantity(errors.train_rms, unit),
-            held_out => quantity(errors.held_out_rms, unit),
-            energy => errors.dissipation_error.map(percent),
-        }
-    };
-    let mut rows = vec![row("Baseline joint", &findings.baseline)];
+    let mut rows = vec![errors("Baseline joint", &findings.baseline, unit)];
     if !findings.causes.is_empty() {
-        rows.push(row("Extended joint", &findings.extended));
+        rows.push(errors("Extended joint", &findings.extended, unit));
     }
     context! {
         miss => wording::miss_sentence(findings),

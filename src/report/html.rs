@@ -4,7 +4,7 @@ use minijinja::value::Value;
 use minijinja::{Environment, UndefinedBehavior, context};
 
 use super::symbols::marked_up;
-use super::{CausePage, ReportError, content, outlook, plots};
+use super::{CausePage, ReportError, compared, content, outlook, plots};
 use crate::diagnose::Findings;
 
 /// Named `.html`, so that every value is escaped.
@@ -24,6 +24,10 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
     let mut records = Vec::new();
     for curves in &findings.curves {
         let figures = plots::of_record(findings, curves)?;
+        if figures.is_empty() && !curves.cycles.is_empty() {
+            // An amplitude table: its levels are drawn together.
+            continue;
+        }
         records.push(context! {
             name => curves.name,
             figures => figures.iter().map(content::figure).collect::<Vec<_>>(),
@@ -36,6 +40,10 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
         banner => content::banner(findings),
         causes => content::causes(findings, pages),
         gain => content::gain(findings),
+        level_figures => plots::levels(findings)?.iter().map(content::figure).collect::<Vec<_>>(),
+        levels => compared::levels(findings),
+        levels_left => compared::levels_left(findings),
+        left_out => compared::left_out(findings),
         plots => records,
         evidence => plots::evidence(findings)?.as_ref().map(content::figure),
         candidates => content::candidates(findings),
@@ -43,6 +51,7 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
         not_identifiable => findings.not_identifiable.iter().map(|s| marked_up(s)).collect::<Vec<_>>(),
         next_experiment => findings.next_experiment,
         blocks => outlook::blocks(findings),
+        map => plots::map(findings)?.as_ref().map(content::figure),
         separability => outlook::separability(findings),
         dummy => outlook::dummy(findings),
         correction => outlook::correction(findings),

@@ -5,6 +5,8 @@ use serde_json::{Value, json};
 use crate::diagnose::Findings;
 use crate::diagnose::experiment::{Correction, Dummy, Separable};
 use crate::diagnose::findings::{Candidate, Errors, Estimate, NamedCause};
+use crate::diagnose::left_out::LeftOut;
+use crate::diagnose::levels::{Compared, Level};
 
 /// Identifier of the schema.
 pub const SCHEMA: &str = "iwan-diagnosis/1";
@@ -34,7 +36,9 @@ pub fn render(findings: &Findings) -> Value {
         "gain": {
             "held_out_rms_ratio": number(ratio),
             "interval": bounds(interval),
+            "left_out_records": list(&findings.left_out, left_out),
         },
+        "levels": list(&findings.levels, level),
         "unexplained": {
             "share": number(findings.unexplained.share),
             "where": findings.unexplained.places,
@@ -128,10 +132,14 @@ fn separable(line: &Separable) -> Value {
         }),
         "lambda_sep": number(line.lambda),
         "lambda_baseline": number(line.baseline),
-        "rivals": list(&line.rivals, |(name, left)| {
-            json!({ "name": name, "lambda": number(*left) })
-        }),
+        "rivals": list(&line.rivals, left),
+        "map": list(&line.row, left),
     })
+}
+
+/// What one rival leaves.
+fn left((name, left): &(String, f64)) -> Value {
+    json!({ "name": name, "lambda": number(*left) })
 }
 
 fn dummy(line: &Dummy) -> Value {
@@ -158,6 +166,45 @@ fn errors(errors: &Errors) -> Value {
     json!({
         "train_rms": number(errors.train_rms),
         "held_out_rms": number(errors.held_out_rms),
+        "held_out_interval": bounds(errors.held_out_interval),
         "dissipation_error": errors.dissipation_error.map_or(Value::Null, number),
+        "dissipation_interval": bounds(errors.dissipation_interval),
+        "stiffness_error": errors.stiffness_error.map_or(Value::Null, number),
+        "stiffness_interval": bounds(errors.stiffness_interval),
+    })
+}
+
+fn left_out(record: &LeftOut) -> Value {
+    json!({
+        "record": record.record,
+        "before": number(record.before),
+        "after": number(record.after),
+        "ratio": number(record.ratio),
+        "interval": bounds(record.interval),
+    })
+}
+
+fn level(level: &Level) -> Value {
+    json!({
+        "record": level.record,
+        "amplitude": number(level.amplitude),
+        "mean": number(level.mean),
+        "unit": level.unit,
+        "rate": level.rate.map_or(Value::Null, number),
+        "cycles": level.cycles,
+        "held_out": level.held_out,
+        "energy": level.energy.as_ref().map(compared),
+        "stiffness": level.stiffness.as_ref().map(compared),
+    })
+}
+
+fn compared(quantity: &Compared) -> Value {
+    json!({
+        "measured": number(quantity.measured),
+        "unit": quantity.unit,
+        "baseline_error": number(quantity.before),
+        "baseline_interval": bounds(quantity.before_interval),
+        "extended_error": number(quantity.after),
+        "extended_interval": bounds(quantity.after_interval),
     })
 }

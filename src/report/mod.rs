@@ -1,5 +1,6 @@
 //! One [`Findings`](crate::diagnose::Findings) value as text, HTML with plots, and JSON.
 
+mod compared;
 mod content;
 pub mod html;
 pub mod json;

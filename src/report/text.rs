@@ -148,6 +148,7 @@ fn gain(findings: &Findings) -> Section {
     }
     let energy = wording::energy_sentence(findings);
     lines.extend(column(&energy));
+    lines.extend(column(&wording::left_out_sentence(findings)));
     Section {
         kept: 2,
         ..Section::new("Gain", lines)

@@ -34,9 +34,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from laboratory.blind import one_case  # noqa: E402
+from laboratory.bench import Bench, Task  # noqa: E402
 from laboratory.effects import FOREIGN  # noqa: E402
 from laboratory.effects_catalogue import FIRST  # noqa: E402
+from laboratory.quality import calibration, parameters, separability  # noqa: E402
 from laboratory.score import matrix, print_matrix, print_totals, totals  # noqa: E402
 
 ALPHA, BETA = 1 / 4000, 1 / 300
@@ -87,6 +88,7 @@ def run(seed, iwan, ratio, jobs, folder):
     """Puts the questions; (questions, marks of the cases, cases that could not be drawn)."""
     asked, marks, not_drawn = questions(), [], []
     drawn = [0] * len(asked)
+    bench = Bench(iwan, folder)
     with ProcessPoolExecutor(max_workers=jobs) as pool:
         while any(question.undecided() for question in asked):
             work, owners = [], []
@@ -95,10 +97,10 @@ def run(seed, iwan, ratio, jobs, folder):
                     number = len(asked) * drawn[kind] + kind
                     # Begins elsewhere for every seed, so that runs cover all effects.
                     effect = question.effects[(seed + drawn[kind]) % len(question.effects)]
-                    work.append((seed, number, effect, (ratio, ratio), iwan, folder, ()))
+                    work.append(Task(seed, number, (effect,), (ratio, ratio)))
                     owners.append(question)
                     drawn[kind] += 1
-            for question, mark in zip(owners, pool.map(one_case, work), strict=True):
+            for question, mark in zip(owners, pool.map(bench, work), strict=True):
                 if "not_drawn" in mark:
                     print(f"case {mark['case']}: {mark['not_drawn']}", flush=True)
                     not_drawn.append(mark)
@@ -131,6 +133,18 @@ def main():
     print_matrix(matrix(marks), sys.stdout)
     print()
     print_totals(totals(marks), sys.stdout)
+    # Too few to be judged by; told so that a run shows where these stand.
+    error = calibration(marks)["first_name"]["expected_error"]
+    figures = parameters(marks)["same_law"]
+    print_totals(
+        {
+            "expected_error_of_probability": error,
+            "median_error_of_parameters": figures["median_error"],
+            "intervals_that_hold_the_truth": figures["covered"],
+            "single_name_right": separability(marks)["single_name_right"],
+        },
+        sys.stdout,
+    )
     print()
     missed = [question.name for question in asked if question.failed()]
     for question in asked:

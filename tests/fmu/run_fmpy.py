@@ -17,6 +17,7 @@ import traceback
 from pathlib import Path
 
 import fmpy_archive
+import fmpy_hosts
 import fmpy_simulation
 import fmpy_three
 
@@ -92,7 +93,8 @@ def main() -> int:
     iwan = arguments.iwan.resolve()
     outcomes = []
     with tempfile.TemporaryDirectory() as folder:
-        for archive in arguments.archives or export(iwan, Path(folder)):
+        archives = arguments.archives or export(iwan, Path(folder))
+        for archive in archives:
             for check in fmpy_archive.CHECKS:
                 outcomes.append(passes(f"{archive.name} {check.__name__}", check, archive))
             unit = fmpy_simulation.Unit(archive, iwan)
@@ -102,6 +104,11 @@ def main() -> int:
                 pair = fmpy_three.Pair(archive, three(archive), iwan)
                 for check in fmpy_three.CHECKS:
                     outcomes.append(passes(f"{pair.archive.name} {check.__name__}", check, pair))
+        made = [archive for archive in archives if archive.is_relative_to(folder)]
+        for check in fmpy_hosts.CHECKS if made else []:
+            with tempfile.TemporaryDirectory() as place:
+                hosted = fmpy_hosts.Pair(made, Path(place))
+                outcomes.append(passes(f"all archives {check.__name__}", check, hosted))
     print(f"{sum(outcomes)} passed, {len(outcomes) - sum(outcomes)} failed")
     return 0 if outcomes and all(outcomes) else 1
 

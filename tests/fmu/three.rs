@@ -334,9 +334,35 @@ fn wrong_counts_references_and_pointers_are_refused() {
         let slope = |seeds, slopes, place: *mut f64| {
             fmi3GetDirectionalDerivative(handle, unknown, 1, known, 1, &1.0, seeds, place, slopes)
         };
+        let adjoint = |seeds, slopes, place: *mut f64| {
+            fmi3GetAdjointDerivative(handle, unknown, 1, known, 1, &1.0, seeds, place, slopes)
+        };
         three.error(slope(2, 1, &mut value));
         three.error(slope(1, 0, &mut value));
         three.error(slope(1, 1, ptr::null_mut()));
+        three.error(adjoint(2, 1, &mut value));
+        three.error(adjoint(1, 0, &mut value));
+        three.error(adjoint(1, 1, ptr::null_mut()));
+        // What is seeded for the one product is answered by the other.
+        let (twice, mut two) = ([FORCE; 2], [7.0; 2]);
+        let (seeds, places) = ([1.0; 2], two.as_mut_ptr());
+        let (knowns, seeds) = (twice.as_ptr(), seeds.as_ptr());
+        three.error(fmi3GetDirectionalDerivative(
+            handle, unknown, 1, knowns, 2, seeds, 1, places, 2,
+        ));
+        three.error(fmi3GetAdjointDerivative(
+            handle, unknown, 1, knowns, 2, seeds, 2, places, 1,
+        ));
+        assert_eq!(two, [7.0; 2]);
+        three.ok(fmi3GetAdjointDerivative(
+            handle, unknown, 1, knowns, 2, seeds, 1, places, 2,
+        ));
+        assert!(two[0] > 0.0 && two[0] == two[1], "{two:?}");
+        let mut sum = 0.0;
+        three.ok(fmi3GetDirectionalDerivative(
+            handle, unknown, 1, knowns, 2, seeds, 2, &mut sum, 1,
+        ));
+        assert_eq!(sum, two[0] + two[1]);
         // A step whose answers find no place is not taken.
         let null = ptr::null_mut();
         let mut flag = 7;

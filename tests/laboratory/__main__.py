@@ -1,16 +1,20 @@
 """Command line of the virtual laboratory: python -m laboratory COMMAND."""
 
 import argparse
+import signal
 import sys
 import time
 
 from . import demo as demo_records
-from . import noise_free
+from . import noise_free, plan
 from .blind import blind_test
 from .case import draw_case, write_case
 from .effects import CATALOGUE, EFFECTS
 from .follow_up import follow_ups, measure_dummy, run_load
-from .scorecard import card
+from .marks import Foreign
+from .noise import KINDS
+from .pair import draw_pair
+from .scorecard import Mixed, card
 
 
 def _span(text):
@@ -18,21 +22,43 @@ def _span(text):
     return float(low), float(high or low)
 
 
-def main(arguments=None):
-    """Run one command; returns the exit status."""
+def _names(text):
+    return tuple(text.split(","))
+
+
+def _strengths(text):
+    strengths = tuple(float(word) for word in text.split(","))
+    unknown = set(strengths) - set(plan.STRENGTHS)
+    if unknown:
+        raise argparse.ArgumentTypeError(f"of {plan.STRENGTHS} only, not {sorted(unknown)}")
+    return strengths
+
+
+def _parser():
     parser = argparse.ArgumentParser(prog="laboratory", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     draw = commands.add_parser("draw", help="records of one case, and the truth beside them")
     draw.add_argument("--case", type=int, default=0)
-    draw.add_argument("--effect", default=None)
+    draw.add_argument("--effect", default=None, help="or two, joined by +; pair: by the seed")
     draw.add_argument("--ratio", type=float, default=None, help="misfit after refit over noise")
     blind = commands.add_parser("blind", help="draw cases, run the finder, judge it")
     blind.add_argument("--cases", type=int, default=24)
-    blind.add_argument("--iwan", required=True, help="path of the command line")
-    blind.add_argument("--effects", default=None, help="names, separated by commas")
+    blind.add_argument("--effects", type=_names, default=None, help="names, by commas")
     blind.add_argument("--ratio", type=_span, default=(1.0, 5.0), help="R or LOW:HIGH")
-    blind.add_argument("--jobs", type=int, default=2)
     blind.add_argument("--pass", dest="more", default="", help="further words for diagnose")
+    power = commands.add_parser("power", help="every effect of the catalogue at every strength")
+    power.add_argument("--cases", type=int, default=3, help="of each effect at each strength")
+    power.add_argument("--effects", type=_names, default=None, help="names, by commas")
+    power.add_argument("--strengths", type=_strengths, default=plan.STRENGTHS)
+    clean = commands.add_parser("clean", help="false alarms under each kind of noise")
+    clean.add_argument("--cases", type=int, default=75, help="of each kind")
+    clean.add_argument("--kinds", type=_names, default=KINDS, help=", ".join(KINDS))
+    foreign = commands.add_parser("foreign", help="effects outside the catalogue")
+    foreign.add_argument("--cases", type=int, default=3, help="of each effect at each strength")
+    foreign.add_argument("--strengths", type=_strengths, default=plan.STRENGTHS)
+    pairs = commands.add_parser("pairs", help="two effects planted at once")
+    pairs.add_argument("--cases", type=int, default=60)
+    pairs.add_argument("--ratio", type=float, default=plan.PAIR_STRENGTH, help="of each alone")
     run = commands.add_parser("run", help="the same hidden joint under a given load")
     run.add_argument("--truth", required=True, help="truth.json of the case")
     run.add_argument("--load", required=True, help="time, and force or displacement")
@@ -40,50 +66,101 @@ def main(arguments=None):
     dummy.add_argument("--truth", required=True, help="truth.json of the case")
     follow = commands.add_parser("follow_up", help="ambiguous cases before and after")
     follow.add_argument("--cases", type=int, default=12)
-    follow.add_argument("--iwan", required=True, help="path of the command line")
-    follow.add_argument("--effects", default="viscous_damping,sensor_delay")
+    follow.add_argument("--effects", type=_names, default=("viscous_damping", "sensor_delay"))
     follow.add_argument("--ratio", type=_span, default=(1.0, 2.0), help="R or LOW:HIGH")
     follow.add_argument("--dummy", action="store_true", help="settle by a dummy instead")
     known = commands.add_parser("noise_free", help="records of a known power-law joint")
     known.add_argument("--softening", type=float, default=None, help="of the tangent, at the peak")
     demo = commands.add_parser("demo", help="the example records")
-    board = commands.add_parser("scorecard", help="several blind tests on one card")
-    board.add_argument("tests", nargs="+", help="blind.json files")
+    board = commands.add_parser("scorecard", help="everything, round by round, and the card")
+    board.add_argument("--rounds", type=int, default=1)
+    board.add_argument("--only", type=_names, default=None, help=", ".join([*plan.PLANS]))
+    report = commands.add_parser("report", help="the card of marks that exist")
     commands.add_parser("effects", help="names of the effects")
-    for one in (draw, blind, known, follow):
+    for one in (blind, power, clean, foreign, pairs, follow, board):
+        one.add_argument("--iwan", required=True, help="path of the command line")
+        one.add_argument("--jobs", type=int, default=2)
+    for one in (draw, blind, power, pairs):
+        one.add_argument("--noise", choices=KINDS, default=None, help="white or coloured if absent")
+    for one in (draw, blind, power, clean, foreign, pairs, known, follow, board):
         one.add_argument("--seed", type=int, default=None, help="from the clock unless given")
-    for one in (draw, blind, known, demo, board, run, dummy, follow):
+    for one in (power, clean, foreign, pairs, board, report):
+        one.add_argument("--commit", default=None, help="of the finder, for the card")
+        one.add_argument("--readme", default=None, help="file whose scorecard block is filled")
+        one.add_argument("--figures", default=None, help="folder for a copy of the drawings")
+    measured = (power, clean, foreign, pairs, board, report)
+    for one in (draw, blind, known, demo, run, dummy, follow, *measured):
         one.add_argument("-o", "--output", required=True)
-    asked = parser.parse_args(arguments)
+    return parser
+
+
+def _measured(asked, seed):
+    """One measurement, or rounds of all; the card is drawn from whatever the folder holds."""
+    if asked.command == "scorecard":
+        steps = plan.rounds(seed, asked.rounds, asked.iwan, asked.output, asked.jobs, asked.only)
+    else:
+        if asked.command == "power":
+            turns = range(asked.cases)
+            lists = (
+                plan.power(seed, t, asked.effects, asked.strengths, asked.noise) for t in turns
+            )
+        elif asked.command == "foreign":
+            lists = (plan.foreign(seed, t, asked.strengths) for t in range(asked.cases))
+        elif asked.command == "clean":
+            lists = [plan.clean(seed, 0, asked.kinds, asked.cases)]
+        else:
+            lists = [plan.pairs(seed, 0, asked.ratio, asked.cases, asked.noise)]
+        tasks = [task for some in lists for task in some]
+        steps = [plan.measure(tasks, asked.iwan, asked.output, asked.jobs)] if tasks else []
+    for _ in steps:
+        _, written = card(asked.output, None, asked.commit, asked.readme, asked.figures)
+    print(f"\n{written}\nseed {seed}" if steps else "no case asked for")
+
+
+def main(arguments=None):
+    """Run one command; returns the exit status."""
+    asked = _parser().parse_args(arguments)
+    # So that a run that is told to end takes its workers with it.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     seed = getattr(asked, "seed", None)
     seed = int(time.time()) if seed is None else seed
+    try:
+        return _run(asked, seed)
+    except (Foreign, Mixed) as reason:
+        print(reason, file=sys.stderr)
+        return 2
+
+
+def _run(asked, seed):
     if asked.command == "draw":
-        records, truth, style = draw_case(seed, asked.case, asked.effect, asked.ratio)
-        for path in write_case(asked.output, records, truth, style):
+        if asked.effect and (asked.effect == "pair" or "+" in asked.effect):
+            names = None if asked.effect == "pair" else asked.effect.split("+")
+            drawn = draw_pair(seed, asked.case, names, asked.ratio or 2.0, asked.noise)
+        else:
+            drawn = draw_case(seed, asked.case, asked.effect, asked.ratio, noise=asked.noise)
+        for path in write_case(asked.output, *drawn):
             print(path)
         print(f"seed {seed}", file=sys.stderr)
     elif asked.command == "blind":
-        effects = asked.effects.split(",") if asked.effects else None
         more = tuple(asked.more.split())
-        blind_test(
-            seed, asked.cases, asked.iwan, asked.output, effects, asked.ratio, asked.jobs, more
-        )
+        rest = (asked.effects, asked.ratio, asked.jobs, more, asked.noise)
+        blind_test(seed, asked.cases, asked.iwan, asked.output, *rest)
+    elif asked.command in ("power", "clean", "foreign", "pairs", "scorecard"):
+        _measured(asked, seed)
+    elif asked.command == "report":
+        print(card(asked.output, None, asked.commit, asked.readme, asked.figures)[1])
     elif asked.command == "run":
         print(run_load(asked.truth, asked.load, asked.output))
     elif asked.command == "dummy":
         print(measure_dummy(asked.truth, asked.output))
     elif asked.command == "follow_up":
-        effects = asked.effects.split(",")
-        follow_ups(
-            seed, asked.cases, asked.iwan, asked.output, effects, asked.ratio, by_dummy=asked.dummy
-        )
+        rest = (asked.effects, asked.ratio, asked.dummy, asked.jobs)
+        follow_ups(seed, asked.cases, asked.iwan, asked.output, *rest)
     elif asked.command == "noise_free":
         print(noise_free.make(seed, asked.output, asked.softening))
         print(f"seed {seed}", file=sys.stderr)
     elif asked.command == "demo":
         print(demo_records.make(asked.output))
-    elif asked.command == "scorecard":
-        card(asked.tests, asked.output)
     else:
         for name in EFFECTS:
             print(name, "catalogue" if name in CATALOGUE else "")

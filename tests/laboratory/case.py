@@ -6,9 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import csvfile, loads, noise
+from . import csvfile, loads
 from .effects import CATALOGUE, EFFECTS, NEEDS_HOLDS
 from .joints import draw_joint
+from .noise import Noise, draw_colour
+from .noise import noise as gaussian
 from .refit import Baseline
 from .rig import Effect, Infeasible
 from .scene import Scene
@@ -98,9 +100,10 @@ def calibrate(gauge, effect, target):
     raise Unreachable("no strength gives this ratio")
 
 
-def _scene(rng, name):
+def _scene(rng, names):
     joint = draw_joint(rng)
-    histories = loads.draw_campaign(rng, holds=name in NEEDS_HOLDS or rng.random() < 0.12)
+    needed = not NEEDS_HOLDS.isdisjoint(names)
+    histories = loads.draw_campaign(rng, holds=needed or rng.random() < 0.12)
     by_force = bool(rng.random() < 0.65)
     if by_force:
         share = rng.uniform(0.3, 0.95)
@@ -117,16 +120,19 @@ def _scene(rng, name):
 class Staged:
     """A case before its noise: what is hidden, what it gives, and the state of the draw."""
 
-    name: str
-    ratio: float
+    seed: int
+    number: int
+    names: tuple  # of the effects; ("clean",) where there is none
+    ratio: float  # asked of each effect
+    found: tuple  # misfit that each leaves alone [unit of the response]
     scene: Scene
     share: float
     gauge: Gauge
     effect: Effect
-    found: float
     sampled: Sampled
     level: float
-    colour: float
+    noise: Noise
+    noise_asked: str | None  # kind; None: as drawn
     rng: np.random.Generator
     refused: list
 
@@ -136,7 +142,34 @@ class Staged:
         return self.level * self.gauge.rms
 
 
-def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
+def stage_scene(rng, names, ratio, noise_kind):
+    """(scene, share of full slip, gauge, level, noise) in which the effects may be planted.
+
+    Raises Unreachable where the clean record itself does not refit well enough.
+    """
+    scene, share = _scene(rng, names)
+    gauge = Gauge(scene)
+    level = 10 ** rng.uniform(-3.0, -2.0)
+    kind = Noise.of(noise_kind, draw_colour(rng))
+    most = FLOOR if names == ("clean",) else min(FLOOR, 0.3 * ratio)
+    if gauge.floor > most * level * gauge.rms:
+        floor = gauge.floor / (level * gauge.rms)
+        raise Unreachable(f"sampling error {floor:.2f} of the noise")
+    return scene, share, gauge, level, kind
+
+
+def planted(name, scene, rng, gauge, target, refused):
+    """(effect, misfit, channels) of one effect that leaves the target alone, in three drafts."""
+    for _ in range(3):
+        try:
+            effect = EFFECTS[name](scene, rng)
+            return effect, *calibrate(gauge, effect, target)
+        except (Unreachable, Infeasible) as reason:
+            refused.append(str(reason))
+    raise Unreachable(f"no draft of {name} would do")
+
+
+def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None):
     """The hidden joint and effect of a case; the same arguments give the same ones.
 
     Scenes in which the effect cannot reach the ratio at a sensible strength are drawn again; the
@@ -149,80 +182,73 @@ def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
     for attempt in range(40):
         rng = np.random.default_rng([seed, number, attempt])
         try:
-            scene, share = _scene(rng, name)
-            gauge = Gauge(scene)
-        except (Infeasible, RuntimeError) as reason:
+            scene, share, gauge, level, kind = stage_scene(rng, (name,), ratio, noise)
+            effect, found, sampled = Effect(), gauge.floor, gauge.clean
+            if name != "clean":
+                target = ratio * level * gauge.rms
+                effect, found, sampled = planted(name, scene, rng, gauge, target, refused)
+        except (Unreachable, Infeasible, RuntimeError) as reason:
             refused.append(str(reason))
             continue
-        level = 10 ** rng.uniform(-3.0, -2.0)
-        colour = noise.draw_colour(rng)
-        rms = level * gauge.rms
-        most = FLOOR if name == "clean" else min(FLOOR, 0.3 * ratio)
-        if gauge.floor > most * rms:
-            refused.append(f"sampling error {gauge.floor / rms:.2f} of the noise")
-            continue
-        effect, found, sampled = Effect(), gauge.floor, gauge.clean
-        if name != "clean":
-            for _ in range(3):
-                try:
-                    effect = EFFECTS[name](scene, rng)
-                    found, sampled = calibrate(gauge, effect, ratio * rms)
-                    break
-                except (Unreachable, Infeasible) as reason:
-                    refused.append(str(reason))
-            else:
-                continue
-        break
-    else:
-        raise RuntimeError(f"case {number} ({name}): {refused}")
-    return Staged(
-        name, ratio, scene, share, gauge, effect, found, sampled, level, colour, rng, refused
-    )
+        head = (seed, number, (name,), ratio, (found,), scene, share, gauge, effect, sampled)
+        return Staged(*head, level, kind, noise, rng, refused)
+    raise RuntimeError(f"case {number} ({name}): {refused}")
 
 
-def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None):
-    """(records, truth, style) of one case; records are (time, force, displacement) in SI, noisy."""
-    staged = stage_case(seed, number, name, ratio, span, pool)
-    name, ratio, scene, share = staged.name, staged.ratio, staged.scene, staged.share
-    gauge, effect, found, sampled = staged.gauge, staged.effect, staged.found, staged.sampled
-    level, colour, rng, refused = staged.level, staged.colour, staged.rng, staged.refused
-    rms = staged.rms
+def record(staged):
+    """(records, what is true of them, style): the case as the laboratory's sensors write it."""
+    scene, sampled, level, rng = staged.scene, staged.sampled, staged.level, staged.rng
     drive_noise = 0.0 if rng.random() < 0.5 else float(0.05 * level * rng.uniform(0.2, 1.0))
     offset = float(rng.normal(0.0, 0.005)) if scene.by_force and rng.random() < 0.4 else 0.0
-    records = []
+    records, heard = [], []
+    errors = staged.noise.files(rng, staged.rms, sampled.force)
     for j, time in enumerate(sampled.time):
-        n = len(time)
-        response = sampled.response[j] + noise.noise(rng, n, rms, colour)
+        heard.append(next(errors))
+        response = sampled.response[j] + heard[-1]
         response = response + offset * np.max(np.abs(sampled.response[j]))
-        drive = sampled.drive[j] + noise.noise(rng, n, drive_noise * np.std(sampled.drive[j]), 0.0)
+        size = drive_noise * np.std(sampled.drive[j])
+        drive = sampled.drive[j] + gaussian(rng, len(time), size, 0.0)
         pair = (drive, response) if scene.by_force else (response, drive)
         records.append((time, *pair))
+    truth = {
+        "refit_floor_over_noise": staged.gauge.floor / staged.rms,
+        "noise": {
+            "kind": staged.noise.kind,
+            "asked": staged.noise_asked,
+            "response_rms": staged.rms,
+            "realised_rms": float(np.sqrt(np.mean(np.concatenate(heard) ** 2))),
+            "of_response_rms": level,
+            "lag_one_correlation": staged.noise.colour,
+            "drive_rms_share": drive_noise,
+        },
+        "drive": "force" if scene.by_force else "displacement",
+        "peak_share_of_full_slip": staged.share,
+        "peak": scene.peak,
+        "joint": scene.joint.describe(),
+        "files": [h.describe() for h in scene.histories],
+        "drawn_again": staged.refused,
+    }
+    return records, truth, csvfile.draw_style(rng)
+
+
+def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None):
+    """(records, truth, style) of one case; records are (time, force, displacement) in SI, noisy."""
+    staged = stage_case(seed, number, name, ratio, span, pool, noise)
+    records, measured, style = record(staged)
+    (name,), effect, hidden = staged.names, staged.effect, staged.names != ("clean",)
     truth = {
         "schema": "laboratory-truth/1",
         "seed": seed,
         "case": number,
         "effect": name,
         "in_catalogue": name in CATALOGUE,
-        "kind": getattr(effect, "kind", None) if name != "clean" else None,
+        "kind": getattr(effect, "kind", None) if hidden else None,
         "parameters": effect.describe(),
         "strength": getattr(effect, "strength", 0.0),
-        "ratio_asked": ratio if name != "clean" else 0.0,
-        "ratio_achieved": found / rms if name != "clean" else 0.0,
-        "refit_floor_over_noise": gauge.floor / rms,
-        "noise": {
-            "response_rms": rms,
-            "of_response_rms": level,
-            "lag_one_correlation": colour,
-            "drive_rms_share": drive_noise,
-        },
-        "drive": "force" if scene.by_force else "displacement",
-        "peak_share_of_full_slip": share,
-        "peak": scene.peak,
-        "joint": scene.joint.describe(),
-        "files": [h.describe() for h in scene.histories],
-        "drawn_again": refused,
+        "ratio_asked": staged.ratio if hidden else 0.0,
+        "ratio_achieved": staged.found[0] / staged.rms if hidden else 0.0,
+        **measured,
     }
-    style = csvfile.draw_style(rng)
     return records, truth, style
 
 

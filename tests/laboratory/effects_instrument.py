@@ -6,6 +6,17 @@ from scipy.signal import lfilter
 from .effects_catalogue import Scaled
 from .rig import Infeasible
 
+FOLLOW_UP_FINE = 4  # steps of the rig between two samples of a test that is not of the campaign
+
+
+def _one_sample(fine):
+    """Weights of a mean over the time of `fine` steps, symmetric about a point of the grid."""
+    if fine % 2:
+        return np.full(fine, 1.0 / fine)
+    ends = np.ones(fine + 1)
+    ends[[0, -1]] = 0.5
+    return ends / fine
+
 
 class Instrument(Scaled):
     """An effect of the displacement channel alone."""
@@ -15,7 +26,11 @@ class Instrument(Scaled):
 
 
 class FixtureInertia(Scaled):
-    """Mass between load cell and specimen: the cell reads its inertia as well."""
+    """Mass between load cell and specimen: the cell reads its inertia as well.
+
+    Where the load turns a corner the acceleration is an impulse, whose value at a point hangs on
+    the rig's step; the cell's amplifier reads its mean over the time from sample to sample.
+    """
 
     name = "fixture_inertia"
     kind = "measurement"
@@ -24,10 +39,14 @@ class FixtureInertia(Scaled):
     def draw(self, scene, rng):
         fastest = (2 * np.pi * scene.fastest) ** 2 * scene.largest("displacement")
         self.most = 0.5 * scene.largest("force") / fastest
+        self.fine = {len(h.time): h.fine for h in scene.histories}
 
     def read_force(self, trace):
         velocity = np.gradient(trace.displacement, trace.time)
-        return trace.force + self.strength * self.most * np.gradient(velocity, trace.time)
+        acceleration = np.gradient(velocity, trace.time)
+        fine = self.fine.get(len(trace.time), FOLLOW_UP_FINE)
+        mean = np.convolve(acceleration, _one_sample(fine), mode="same")
+        return trace.force + self.strength * self.most * mean
 
     def describe(self):
         return {"mass_kg": self.strength * self.most}

@@ -2,23 +2,32 @@
 monolithic dummy through the same measuring chain, and what a finder says then."""
 
 import json
+import shutil
+import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from . import csvfile, noise, rig
-from .blind import diagnose
-from .case import draw_case, stage_case, write_case
-from .score import judge, share
+from . import csvfile, rig
+from .bench import Task, diagnose, run
+from .case import stage_case, write_case
+from .effects_instrument import FOLLOW_UP_FINE
+from .marks import Marks, fingerprint
+from .pair import stage_pair
+from .score import judge, print_totals, share
 
-FINE = 4  # steps of the rig between two samples
+FINE = FOLLOW_UP_FINE
+CAUTION = (1.0, 0.8, 0.65)  # of the largest force, where the joint slips away under it
 SI = {"force": "N", "length": "m", "swap": False}
 
 
 def _restage(truth):
-    ratio = truth["ratio_asked"] or None
-    return stage_case(truth["seed"], truth["case"], truth["effect"], ratio)
+    ratio, kind = truth["ratio_asked"] or None, truth["noise"]["asked"]
+    if "effects" in truth:
+        return stage_pair(truth["seed"], truth["case"], truth["effects"], ratio, kind)[0]
+    return stage_case(truth["seed"], truth["case"], truth["effect"], ratio, noise=kind)
 
 
 def read_load(path):
@@ -39,7 +48,7 @@ def _noisy(staged, rng, time, force, displacement, by_force):
     level = staged.rms
     if by_force != staged.scene.by_force:
         level = staged.level * float(np.sqrt(np.mean(response**2)))
-    response = response + noise.noise(rng, len(time), level, staged.colour)
+    response = response + next(staged.noise.files(rng, level, [force]))
     return (time, force, response) if by_force else (time, response, displacement)
 
 
@@ -89,72 +98,118 @@ def measure_dummy(truth, directory):
     return path
 
 
-def _limits(truth):
+def _limits(truth, caution=1.0):
     """What the rig can do: nearly full slip, ten times the rate, the time of the first tests."""
     fastest = max(max(f["rates_Hz"]) for f in truth["files"])
     seconds = sum(f["duration_s"] for f in truth["files"])
     limits = {"--limit-rate": 10.0 * fastest, "--limit-duration": seconds}
     if truth["drive"] == "force":
-        limits["--limit-force"] = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        most = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        limits["--limit-force"] = caution * most
     return tuple(word for option, value in limits.items() for word in (option, repr(value)))
 
 
-def follow_up(seed, number, name, span, iwan, directory, by_dummy=False):
-    """One case before and after: marks of both, or only the first where nothing was ambiguous."""
-    folder = Path(directory) / f"case-{number:04d}"
-    records, truth, style = draw_case(seed, number, name, span=span)
-    paths = write_case(folder, records, truth, style)
-    before, reason, _ = diagnose(iwan, paths, folder / "before", _limits(truth))
-    if before is None:
-        return {"case": number, "effect": name, "failed": reason}
-    marks = {"case": number, "effect": name, "before": judge(truth, before), "after": None}
-    if not marks["before"]["ambiguous_with"] or not marks["before"]["in_set"]:
-        return marks
-    load = folder / "before" / "next_experiment.csv"
-    hidden = folder / "truth.json"
-    if by_dummy:
-        more = ("--dummy", str(measure_dummy(hidden, folder)))
-    elif load.exists():
-        paths = [*paths, run_load(hidden, load, folder)]
-        more = ()
-    else:
-        return marks
-    after, reason, _ = diagnose(iwan, paths, folder / "after", more)
-    marks["promised"] = before["next_experiment"]
-    marks["after"] = judge(truth, after) if after else None
-    marks["failed"] = reason
-    return marks
+@dataclass(frozen=True)
+class FollowUp:
+    """Work of `bench.run`: a case before and, where several causes were left, after."""
 
+    iwan: str
+    directory: str
+    by_dummy: bool = False
+    keep: bool = True
 
-def follow_ups(seed, cases, iwan, directory, effects, span=(1.0, 2.0), by_dummy=False):
-    """Cases of the given effects in turn; the share of ambiguous ones that are right alone and
-    right first after the experiment (or the dummy). Writes DIR/follow_up.json."""
-    marks = []
-    for number in range(cases):
-        name = effects[number % len(effects)]
+    def __call__(self, task):
+        """Marks of both diagnoses; `after` is None where nothing was ambiguous or on offer."""
+        folder = Path(self.directory) / f"case-{task.number:04d}"
+        asked = {"measurement": task.measurement, "case": task.number, "asked": list(task.span)}
+        mark = {**asked, "effect": task.effects[0], "before": None, "after": None, "failed": None}
         try:
-            mark = follow_up(seed, number, name, span, iwan, directory, by_dummy)
+            mark.update(self._both(task, folder))
         except (RuntimeError, rig.Infeasible) as reason:
-            mark = {"case": number, "effect": name, "failed": str(reason)}
-        marks.append(mark)
-        said = [
-            " ".join([*m["named"], *(f"or {a}" for a in m["ambiguous_with"])]) if m else "-"
-            for m in (mark.get("before"), mark.get("after"))
-        ]
-        print(f"{number:4d} {name:<20} {said[0]} -> {said[1]}", flush=True)
-    settled = [m["after"] for m in marks if m.get("after")]
+            mark["failed"] = str(reason)
+        if not self.keep:
+            shutil.rmtree(folder, ignore_errors=True)
+        return mark
+
+    def _both(self, task, folder):
+        records, truth, style = task.draw()
+        paths = write_case(folder, records, truth, style)
+        hidden = folder / "truth.json"
+        more = ()
+        for caution in CAUTION:
+            limits = _limits(truth, caution)
+            before, reason, _ = diagnose(self.iwan, paths, folder / "before", limits)
+            if before is None:
+                return {"failed": reason}
+            marks = {"before": judge(truth, before), "promised": before["next_experiment"]}
+            if not marks["before"]["ambiguous_with"]:
+                return marks
+            if self.by_dummy:
+                more = ("--dummy", str(measure_dummy(hidden, folder)))
+                break
+            load = folder / "before" / "next_experiment.csv"
+            if not load.exists():
+                return marks
+            try:
+                paths = [*paths, run_load(hidden, load, folder)]
+                break
+            except rig.Infeasible as slipped:
+                # The joint slips away under this load: the engineer asks again with less force.
+                marks["slipped"] = str(slipped)
+        else:
+            return marks
+        after, reason, _ = diagnose(self.iwan, paths, folder / "after", more)
+        return {**marks, "after": judge(truth, after) if after else None, "failed": reason}
+
+
+def follow_up_said(mark):
+    """One line about a case before and after."""
+    told = [
+        " ".join([*m["named"], *(f"or {a}" for a in m["ambiguous_with"])]) if m else "-"
+        for m in (mark["before"], mark["after"])
+    ]
+    failed = f"  {mark['failed']}" if mark["failed"] else ""
+    return f"{mark['case']:4d} {mark['effect']:<24} {told[0]} -> {told[1]}{failed}"
+
+
+def follow_up_totals(marks):
+    """Shares over the cases that were ambiguous before; one without a program is not settled."""
+    open_before = [m for m in marks if m["before"] and m["before"]["ambiguous_with"]]
+    offered = [m for m in open_before if m["after"] or m["failed"]]
+
+    def over(group, mark):
+        return share(sum(bool(m["after"] and m["after"][mark]) for m in group), len(group))
+
+    return {
+        "ambiguous_before": len(open_before),
+        "effect_in_the_set_before": share(
+            sum(m["before"]["in_set"] for m in open_before), len(open_before)
+        ),
+        "experiment_offered": share(len(offered), len(open_before)),
+        "first_after": over(offered, "first"),
+        "alone_after": over(offered, "alone"),
+        "first_after_of_all_ambiguous": over(open_before, "first"),
+    }
+
+
+def follow_ups(seed, cases, iwan, directory, effects, span=(1.0, 2.0), by_dummy=False, jobs=1):
+    """Cases of the given effects in turn, afresh; writes DIR/follow_up.json."""
+    names = [effects[number % len(effects)] for number in range(cases)]
+    tasks = [Task(seed, j, (name,), span, None, "follow_up") for j, name in enumerate(names)]
+    lines = Path(directory) / "follow_up.jsonl"
+    lines.unlink(missing_ok=True)
+    work = FollowUp(iwan, directory, by_dummy)
+    with Marks(lines, seed, fingerprint(iwan)) as known:
+        marks = run(tasks, work, jobs, known, follow_up_said)
     result = {
         "schema": "laboratory-follow-up/1",
         "seed": seed,
         "by": "dummy" if by_dummy else "experiment",
-        "alone_after": share(sum(m["alone"] for m in settled), len(settled)),
-        "first_after": share(sum(m["first"] for m in settled), len(settled)),
+        "totals": follow_up_totals(marks),
         "cases": marks,
     }
     path = Path(directory) / "follow_up.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    for key in ("alone_after", "first_after"):
-        print(f"{key:<14} {result[key]['count']} of {result[key]['of']}")
+    print_totals(result["totals"], sys.stdout)
     print(f"seed {seed}")
     return result

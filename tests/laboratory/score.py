@@ -11,8 +11,8 @@ class Unreadable(Exception):
 VERDICTS = {"clean", "explained", "partly_explained", "unexplained"}
 
 
-def judge(truth, diagnosis):
-    """One case: what was said, and which marks it earns."""
+def _stated(diagnosis):
+    """(verdict, names in order, each with the names it may be instead)."""
     if diagnosis.get("schema") not in (None, "iwan-diagnosis/1"):
         raise Unreadable(f"schema {diagnosis.get('schema')!r}")
     verdict = diagnosis.get("verdict")
@@ -20,7 +20,16 @@ def judge(truth, diagnosis):
         raise Unreadable(f"verdict {verdict!r}")
     causes = diagnosis.get("causes") or []
     named = [cause["name"] for cause in causes]
-    stated = set(named[:1]) | set((causes[0].get("ambiguous_with") or []) if causes else [])
+    sets = [{cause["name"], *(cause.get("ambiguous_with") or [])} for cause in causes]
+    return verdict, named, sets
+
+
+def judge(truth, diagnosis):
+    """One case: what was said, and which marks it earns."""
+    if "effects" in truth:
+        return judge_pair(truth, diagnosis)
+    verdict, named, sets = _stated(diagnosis)
+    stated = sets[0] if sets else set()
     effect, known = truth["effect"], truth["in_catalogue"]
     return {
         "case": truth["case"],
@@ -33,6 +42,7 @@ def judge(truth, diagnosis):
         "column": named[0] if named else verdict,
         "alone": known and named == [effect] and len(stated) == 1,
         "first": known and named[:1] == [effect],
+        "single": len(named) == 1 and len(stated) == 1,
         "in_set": known and effect in stated,
         "missed": known and verdict == "clean" and not named,
         "false_alarm": effect == "clean" and (verdict != "clean" or bool(named)),
@@ -45,12 +55,56 @@ def judge(truth, diagnosis):
     }
 
 
+def judge_pair(truth, diagnosis):
+    """A case with two effects: each asks for a name of its own that is it or may be it."""
+    verdict, named, sets = _stated(diagnosis)
+    one, other = truth["effects"]
+    # A single name that may be either is one statement, not two.
+    both = any(
+        one in a and other in b for i, a in enumerate(sets) for j, b in enumerate(sets) if i != j
+    )
+    covered = set().union(*sets)
+    return {
+        "case": truth["case"],
+        "effect": f"{one}+{other}",
+        "effects": [one, other],
+        "kinds": truth["kinds"],
+        "known": True,
+        "ratio": truth["ratio_together"],
+        "ratios": truth["ratios_achieved"],
+        "likeness": truth["likeness"],
+        "verdict": verdict,
+        "named": named,
+        "ambiguous_with": sorted(covered - set(named)),
+        "both": both,
+        "both_alone": both and len(named) == 2,
+        "both_by_name": sorted(named) == sorted([one, other]),
+        "covered": [effect for effect in (one, other) if effect in covered],
+        "needless": sum(not {one, other} & stated for stated in sets),
+        "third": len(named) > 2,
+        "missed": verdict == "clean" and not named,
+        "failed": None,
+    }
+
+
+def said(mark):
+    """One line about a case."""
+    if "not_drawn" in mark:
+        return f"{mark['case']:4d} {mark['effect']:<24} could not be drawn"
+    told = mark["failed"] or " ".join([mark["verdict"], *mark["named"]])
+    also = f" (or {', '.join(mark['ambiguous_with'])})" if mark["ambiguous_with"] else ""
+    return (
+        f"{mark['case']:4d} {mark['effect']:<24} x{mark['ratio']:.2f} "
+        f"{mark['drive'][:5]} -> {told}{also}  {mark['seconds']:.1f} s"
+    )
+
+
 def failure(truth, reason):
     """A case that gave no diagnosis: no mark but for the failure."""
     marks = judge(truth, {"verdict": "unexplained"})
-    marks.update(column="failed", failed=reason, verdict=None)
-    for mark in ("false_alarm", "called_unexplained"):
-        marks[mark] = False
+    marks.update(failed=reason, verdict=None)
+    if "effects" not in truth:
+        marks.update(column="failed", false_alarm=False, called_unexplained=False)
     return marks
 
 
@@ -69,12 +123,31 @@ def share(count, total):
     }
 
 
-def _median(values):
+def median(values):
+    """Median of those that are not None, or None."""
     values = sorted(v for v in values if v is not None)
     if not values:
         return None
     n = len(values)
     return values[n // 2] if n % 2 else 0.5 * (values[n // 2 - 1] + values[n // 2])
+
+
+def pair_totals(cases):
+    """Shares over cases with two effects."""
+
+    def over(mark):
+        return share(sum(bool(c[mark]) for c in cases), len(cases))
+
+    return {
+        "both_and_no_third": over("both_alone"),
+        "both_in_stated_sets": over("both"),
+        "both_by_name": over("both_by_name"),
+        "both_covered": share(sum(len(c["covered"]) == 2 for c in cases), len(cases)),
+        "none_found": share(sum(not c["covered"] for c in cases), len(cases)),
+        "more_than_two_names": over("third"),
+        "a_name_that_is_neither": over("needless"),
+        "failed": over("failed"),
+    }
 
 
 def totals(cases):
@@ -97,7 +170,7 @@ def totals(cases):
         "wrong_explained": over(foreign, "wrong_explained"),
         "called_unexplained": over(foreign, "called_unexplained"),
         "failed": over(cases, "failed"),
-        "median_held_out_rms_ratio_when_right": _median(
+        "median_held_out_rms_ratio_when_right": median(
             c["held_out_rms_ratio"] for c in known if c["first"]
         ),
     }
@@ -134,7 +207,7 @@ def print_totals(sums, out):
     """The totals as text."""
     for name, value in sums.items():
         if not isinstance(value, dict):
-            print(f"{name:<40} {'-' if value is None else format(value, '.3f')}", file=out)
+            print(f"{name:<40} {'-' if value is None else format(value, '.4g')}", file=out)
         elif value["of"]:
             low, high = value["interval"]
             print(

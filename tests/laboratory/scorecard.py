@@ -1,73 +1,118 @@
-"""Several blind tests on one card: totals by strength as text, confusion matrices as SVG."""
+"""The card: what all marks of a folder say, as JSON, as drawings and as text for the README."""
 
 import json
 from pathlib import Path
-from xml.sax.saxutils import escape
 
-from .score import matrix, print_matrix, print_totals, totals
+from . import drawings, quality
+from .follow_up import follow_up_totals
+from .markdown import block
+from .marks import read
+from .noise import KINDS
 
-CELL, LEFT, TOP, GAP = 22, 170, 150, 40
-
-
-def _heat(table, title, top):
-    """One confusion matrix as SVG, rows normalised to their own number of cases."""
-    out = [f'<text x="10" y="{top + 14}" class="title">{escape(title)}</text>']
-    for j, column in enumerate(table["columns"]):
-        x, y = LEFT + j * CELL + 15, top + TOP - 6
-        out.append(f'<text transform="translate({x},{y}) rotate(-60)">{escape(column)}</text>')
-    for i, (row, counts) in enumerate(zip(table["rows"], table["counts"], strict=True)):
-        y, total = top + TOP + i * CELL, max(sum(counts), 1)
-        out.append(f'<text x="{LEFT - 6}" y="{y + 15}" text-anchor="end">{escape(row)}</text>')
-        for j, n in enumerate(counts):
-            x = LEFT + j * CELL
-            right = table["columns"][j] == row
-            hue = "35,110,60" if right else "170,50,40"
-            out.append(
-                f'<rect x="{x}" y="{y}" width="{CELL - 1}" height="{CELL - 1}" '
-                f'fill="rgba({hue},{n / total:.2f})" stroke="#ccc"/>'
-            )
-            if n:
-                out.append(f'<text x="{x + 10}" y="{y + 15}" text-anchor="middle">{n}</text>')
-    return out, top + TOP + len(table["rows"]) * CELL + GAP
+MEASUREMENTS = ("power", "foreign", "clean", "pairs", "follow_up")
+MARKERS = ("<!-- scorecard -->", "<!-- /scorecard -->")
 
 
-def card(paths, directory):
-    """Print the card and write scorecard.json and scorecard.svg; returns the summary."""
-    summary, drawing, top, wide = [], [], 10, 0
-    for path in paths:
-        one = json.loads(Path(path).read_text(encoding="utf-8"))
-        table, sums = matrix(one["cases"]), totals(one["cases"])
-        title = (
-            f"misfit {one['ratio'][0]:g} to {one['ratio'][1]:g} of the noise, seed {one['seed']}"
-        )
-        print(f"\n== {title}, {len(one['cases'])} cases")
-        print_matrix(table, None)
-        print()
-        print_totals(sums, None)
-        for key in ("drive", "coloured"):
-            for value in sorted({c[key] for c in one["cases"] if key in c}, key=str):
-                part = totals([c for c in one["cases"] if c.get(key) == value])
-                right, alarm = part["right_first"], part["false_alarms"]
-                print(
-                    f"   {key} {value}: right first {right['count']}/{right['of']}, "
-                    f"false alarms {alarm['count']}/{alarm['of']}"
-                )
-        summary.append(
-            {"ratio": one["ratio"], "seed": one["seed"], "totals": sums, "matrix": table}
-        )
-        lines, top = _heat(table, title, top)
-        drawing += lines
-        wide = max(wide, LEFT + (len(table["columns"]) + 3) * CELL + 60)
+class Mixed(Exception):
+    """Marks of several finders or seeds do not make one card."""
+
+
+def gather(directory):
+    """(seed, finder, {measurement: marks}) of the marks in a folder."""
+    headers, marks = [], {}
+    for name in MEASUREMENTS:
+        path = Path(directory) / f"{name}.jsonl"
+        if path.exists():
+            header, marks[name] = read(path)
+            headers.append((header["seed"], header["finder"]))
+    if len(set(headers)) != 1:
+        raise Mixed(f"{directory} holds marks of {sorted(set(headers))}")
+    return *headers[0], marks
+
+
+def summarise(directory, commit=None):
+    """Everything that is stated about the finder, as plain values."""
+    seed, finder, marks = gather(directory)
+    drawn = {k: [m for m in v if "not_drawn" not in m] for k, v in marks.items()}
+    power, foreign = drawn.get("power", []), drawn.get("foreign", [])
+    clean, two = drawn.get("clean", []), drawn.get("pairs", [])
+    single = power + foreign + clean
+    strengths = sorted({c["asked"][0] for c in power + foreign})
+    return {
+        "schema": "laboratory-scorecard/2",
+        "seed": seed,
+        "commit": commit,
+        "finder": finder,
+        "cases": {k: len(v) for k, v in drawn.items()},
+        "not_drawn": {
+            k: [[m["effect"], m["asked"][0]] for m in v if "not_drawn" in m]
+            for k, v in marks.items()
+        },
+        "failed": [m["key"] for v in drawn.values() for m in v if m.get("failed")],
+        "seconds": sum(m.get("seconds") or 0.0 for v in drawn.values() for m in v),
+        "by_strength": {
+            f"{s:g}": quality.rates([c for c in power + foreign if c["asked"][0] == s])
+            for s in strengths
+        },
+        "power": quality.power(power),
+        "false_alarms": quality.false_alarms(clean),
+        "unknown": quality.unknowns(foreign),
+        "pairs": quality.pairs(two),
+        "calibration": quality.calibration(single),
+        "separability": quality.separability(single),
+        "parameters": quality.parameters(power),
+        "held_out": quality.held_out(power),
+        "follow_up": follow_up_totals(marks.get("follow_up", [])),
+        "noise_kinds": list(KINDS),
+    }
+
+
+def draw(summary, directory):
+    """matrix.svg, power.svg and reliability.svg."""
     directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    (directory / "scorecard.json").write_text(
-        json.dumps({"schema": "laboratory-scorecard/1", "tests": summary}, indent=1) + "\n",
-        encoding="utf-8",
-    )
-    (directory / "scorecard.svg").write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{top}">\n'
-        "<style>text{font:11px sans-serif}.title{font-size:14px;font-weight:bold}</style>\n"
-        '<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(drawing) + "\n</svg>\n",
-        encoding="utf-8",
-    )
-    return summary
+    seed = summary["seed"]
+    tables = [
+        (f"misfit {s} of the noise, seed {seed}", one["matrix"])
+        for s, one in summary["by_strength"].items()
+    ]
+    if tables:
+        drawings.matrices(tables, directory / "matrix.svg")
+        drawings.power(summary["power"], directory / "power.svg")
+    calibration = summary["calibration"]
+    diagrams = [
+        ("First name, effects of the catalogue", calibration["first_name"]),
+        ("First name, all cases", calibration["first_name_of_all_cases"]),
+        ("Every candidate", calibration["every_candidate"]),
+    ]
+    drawings.reliability(diagrams, directory / "reliability.svg")
+
+
+def card(directory, output=None, commit=None, readme=None, figures=None):
+    """Write scorecard.json, scorecard.md and the drawings; fill the README's block if asked."""
+    summary = summarise(directory, commit)
+    output = Path(output or directory)
+    output.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(summary, indent=1) + "\n"
+    (output / "scorecard.json").write_text(text, encoding="utf-8")
+    written = block(summary, figures)
+    (output / "scorecard.md").write_text(written, encoding="utf-8")
+    draw(summary, output)
+    if figures:
+        Path(figures).mkdir(parents=True, exist_ok=True)
+        for name in ("matrix", "power", "reliability"):
+            if (output / f"{name}.svg").exists():
+                drawing = (output / f"{name}.svg").read_text(encoding="utf-8")
+                target = Path(figures) / f"scorecard-{name}.svg"
+                target.write_text(drawing, encoding="utf-8")
+    if readme:
+        fill(readme, written)
+    return summary, written
+
+
+def fill(readme, written):
+    """Replace what stands between the markers of the README."""
+    readme = Path(readme)
+    text = readme.read_text(encoding="utf-8")
+    begin, end = (text.index(marker) for marker in MARKERS)
+    kept = text[: begin + len(MARKERS[0])], text[end:]
+    readme.write_text(f"{kept[0]}\n{written}{kept[1]}", encoding="utf-8")

@@ -16,10 +16,11 @@ from .case import Gauge, Sampled, calibrate, draw_case, write_case
 from .effects import CATALOGUE, EFFECTS, FOREIGN, in_turn
 from .follow_up import measure
 from .joints import LAWS, WEIGHTS, Joint, draw_joint
-from .noise import noise
+from .noise import Noise, noise
 from .refit import Baseline
 from .scene import Scene
 from .score import Unreadable, judge, matrix, share, totals
+from .self_test_measured import Card, Kinds, Pairs, Quality, Resuming  # noqa: F401
 
 
 def uniform_joint(n=400, series=2.0):
@@ -150,7 +151,9 @@ class FollowUp(unittest.TestCase):
         effect = CATALOGUE["viscous_damping"](scene, rng)
         effect.strength = 0.05
         first = Sampled(scene, scene.play(effect), effect)
-        still = SimpleNamespace(scene=scene, effect=effect, rms=0.0, level=0.0, colour=0.0)
+        still = SimpleNamespace(
+            scene=scene, effect=effect, rms=0.0, level=0.0, noise=Noise("white")
+        )
         again = measure(still, rng, first.time[0], first.drive[0], True, fine_steps=2)
         size = np.max(np.abs(first.displacement[0]))
         # The program is known at the samples only; between them the rig follows a curve.

@@ -1,4 +1,10 @@
-//! An archive behind the `fmi` crate's importer.
+//! An archive behind the `fmi` crate's importer, of FMI 2.0 or 3.0.
+
+mod import;
+mod reduced;
+mod three;
+mod two;
+mod unit;
 
 use super::load::Load;
 use super::measured::Measured;
@@ -8,21 +14,19 @@ use crate::cli::BadInput;
 use crate::joint::{Drive, Joint, Output, Simulation};
 use crate::saved;
 use crate::variables::{Causality, Place, Signal, Variable, Variables, drive_of};
-use fmi::fmi2::import::Fmi2Import;
-use fmi::fmi2::instance::{CoSimulation, Common, InstanceCS};
-use fmi::import;
-use fmi::traits::FmiImport;
+use import::Import;
 use std::path::Path;
+use unit::{Refused, Unit};
 
 /// An archive, unpacked and read.
 #[derive(Debug)]
 pub struct Archive {
-    import: Fmi2Import,
+    import: Import,
     shown: String,
     joint: Joint,
     drive: Drive,
     validation: Validation,
-    input: Variable,
+    input: u32,
     answers: Vec<(Signal, Variable)>,
 }
 
@@ -34,23 +38,21 @@ impl Archive {
     pub fn open(path: &Path) -> anyhow::Result<Archive> {
         let shown = path.display().to_string();
         let refuse = |reason: String| BadInput(format!("{shown}: {reason}"));
-        let import: Fmi2Import = import::from_path(path)
-            .map_err(|error| refuse(format!("is no FMI 2.0 archive: {error}")))?;
-        let file = import.resource_path().join("joint.json");
+        let import = Import::open(path)?;
+        let file = import.resources().join("joint.json");
         let text = std::fs::read_to_string(file)
             .map_err(|error| refuse(format!("resources/joint.json: {error}")))?;
         let joint = saved::read(&text, &format!("{shown}/resources/joint.json"))?.joint;
-        let drive = drive_of(&text, &import.model_description().guid).ok_or_else(|| {
+        let drive = drive_of(&text, import.token()).ok_or_else(|| {
             refuse("the GUID in modelDescription.xml is not that of resources/joint.json".into())
         })?;
         let variables = Variables::of(&joint, drive)?;
-        let validation = validate(path, &joint, &variables);
-        let signals = variables.signals;
+        let validation = validate(path, import.version(), &joint, &variables);
         let mut answers = Vec::new();
         let mut input = None;
-        for variable in signals {
+        for variable in variables.signals {
             match (variable.place, variable.causality) {
-                (_, Causality::Input) => input = Some(variable),
+                (_, Causality::Input) => input = Some(variable.reference),
                 (Place::Signal(signal), _) => answers.push((signal, variable)),
                 _ => {}
             }
@@ -74,12 +76,7 @@ impl Archive {
 
     /// The communication step \[s\] that importers take by default, where the archive names one.
     pub fn default_step(&self) -> Option<f64> {
-        let experiment = self
-            .import
-            .model_description()
-            .default_experiment
-            .as_ref()?;
-        experiment.step_size.filter(|step| *step > 0.0)
+        self.import.default_step().filter(|step| *step > 0.0)
     }
 
     /// The joint that the archive carries.
@@ -93,53 +90,33 @@ impl Archive {
     }
 
     /// Runs archive and joint side by side. Halfway the archive's state is saved, serialized, and
-    /// the second half is run twice from it.
+    /// the second half is run twice from it; at the end the unit is reset and runs once more.
     ///
     /// # Errors
     /// [`BadInput`] where the archive refuses a call; [`crate::joint::JointError`] where the joint
     /// refuses the load.
     pub fn compare(&self, load: &Load) -> anyhow::Result<Verdict> {
         let expected = self.simulate(load)?;
-        let mut unit = self.instance(load)?;
-        let half = load.time.len() / 2;
-        let mut rows = vec![self.read(&mut unit, load.time[0])?];
-        for row in 1..half.max(1) {
-            rows.push(self.step(&mut unit, load, row)?);
-        }
-        let state = unit
-            .get_fmu_state()
-            .map_err(|error| self.refused("fmi2GetFMUstate", error))?;
-        let bytes = unit
-            .serialize_fmu_state(&state)
-            .map_err(|error| self.refused("fmi2SerializeFMUstate", error))?;
-        let first: Vec<_> = self.second_half(&mut unit, load, half)?;
-        let state = unit
-            .deserialize_fmu_state(&bytes)
-            .map_err(|error| self.refused("fmi2DeSerializeFMUstate", error))?;
-        let put_back = unit.set_fmu_state(&state);
-        fmi::traits::FmiStatus::ok(put_back)
-            .map_err(|error| self.refused("fmi2SetFMUstate", error))?;
-        let again = self.second_half(&mut unit, load, half)?;
-        let state_continues = first == again;
-        rows.extend(first);
+        let run = self
+            .run(load)
+            .map_err(|refused| BadInput(format!("{}: {refused}", self.shown)))?;
         let measured = Measured::of(load, self.drive, &expected);
-        let differences = self
-            .answers
-            .iter()
-            .enumerate()
-            .map(|(index, (signal, variable))| {
-                let pairs = rows.iter().zip(&expected);
-                let pairs = pairs.map(|(row, output)| (row[index], signal.of(output)));
-                difference(variable, pairs)
-            });
+        let answers = self.answers.iter().enumerate();
+        let differences = answers.map(|(index, (signal, variable))| {
+            let pairs = run.rows.iter().zip(&expected);
+            let pairs = pairs.map(|(row, output)| (row[index], signal.of(output)));
+            difference(variable, pairs)
+        });
         Ok(Verdict {
-            samples: rows.len(),
+            version: self.import.version(),
+            samples: run.rows.len(),
             input: match self.drive {
                 Drive::Force => "force",
                 Drive::Displacement => "displacement",
             },
             differences: differences.collect(),
-            state_continues,
+            state_continues: run.state_continues,
+            reset_repeats: run.reset_repeats,
             measured,
             steps: None,
             validation: self.validation.clone(),
@@ -154,62 +131,85 @@ impl Archive {
             .collect::<Result<_, _>>()?)
     }
 
-    fn instance(&self, load: &Load) -> Result<InstanceCS, BadInput> {
-        let mut unit = self
-            .import
-            .instantiate_cs("check", false, false)
-            .map_err(|error| self.refused("fmi2Instantiate", error))?;
-        unit.setup_experiment(None, load.time[0], None)
-            .map_err(|error| self.refused("fmi2SetupExperiment", error))?;
-        unit.enter_initialization_mode()
-            .map_err(|error| self.refused("fmi2EnterInitializationMode", error))?;
-        self.set(&mut unit, load.input[0])?;
-        unit.exit_initialization_mode()
-            .map_err(|error| self.refused("fmi2ExitInitializationMode", error))?;
-        Ok(unit)
+    fn run(&self, load: &Load) -> Result<Run, Refused> {
+        let mut unit = self.import.instance()?;
+        let unit = unit.as_mut();
+        let half = (load.time.len() / 2).max(1);
+        let mut rows = self.first_half(unit, load, half)?;
+        let state = unit.save()?;
+        let second = self.second_half(unit, load, half)?;
+        let state_continues = match state {
+            Some(bytes) => {
+                unit.restore(&bytes)?;
+                Some(same(&second, &self.second_half(unit, load, half)?))
+            }
+            None => None,
+        };
+        rows.extend(second);
+        unit.reset()?;
+        let mut again = self.first_half(unit, load, half)?;
+        again.extend(self.second_half(unit, load, half)?);
+        let reset_repeats = same(&rows, &again);
+        Ok(Run {
+            rows,
+            state_continues,
+            reset_repeats,
+        })
+    }
+
+    fn first_half(
+        &self,
+        unit: &mut dyn Unit,
+        load: &Load,
+        half: usize,
+    ) -> Result<Vec<Vec<f64>>, Refused> {
+        unit.start(load.time[0], self.input, load.input[0])?;
+        let mut rows = vec![self.read(unit)?];
+        for row in 1..half {
+            rows.push(self.step(unit, load, row)?);
+        }
+        Ok(rows)
     }
 
     fn second_half(
         &self,
-        unit: &mut InstanceCS,
+        unit: &mut dyn Unit,
         load: &Load,
         half: usize,
-    ) -> Result<Vec<Vec<f64>>, BadInput> {
-        (half.max(1)..load.time.len())
+    ) -> Result<Vec<Vec<f64>>, Refused> {
+        (half..load.time.len())
             .map(|row| self.step(unit, load, row))
             .collect()
     }
 
     /// One step to the time of a row, under the input of that row.
-    fn step(&self, unit: &mut InstanceCS, load: &Load, row: usize) -> Result<Vec<f64>, BadInput> {
+    fn step(&self, unit: &mut dyn Unit, load: &Load, row: usize) -> Result<Vec<f64>, Refused> {
         let (from, to) = (load.time[row - 1], load.time[row]);
-        self.set(unit, load.input[row])?;
-        unit.do_step(from, to - from, true)
-            .map_err(|error| self.refused(&format!("fmi2DoStep from {from} s to {to} s"), error))?;
-        self.read(unit, to)
+        unit.set(self.input, load.input[row])?;
+        unit.step(from, to - from)?;
+        self.read(unit)
     }
 
-    fn set(&self, unit: &mut InstanceCS, value: f64) -> Result<(), BadInput> {
-        unit.set_real(&[self.input.reference], &[value])
-            .map(|_| ())
-            .map_err(|error| self.refused(&format!("fmi2SetReal to {value}"), error))
-    }
-
-    fn read(&self, unit: &mut InstanceCS, time: f64) -> Result<Vec<f64>, BadInput> {
+    fn read(&self, unit: &mut dyn Unit) -> Result<Vec<f64>, Refused> {
         let references: Vec<_> = self
             .answers
             .iter()
             .map(|(_, answer)| answer.reference)
             .collect();
-        let mut values = vec![f64::NAN; references.len()];
-        unit.get_real(&references, &mut values)
-            .map_err(|error| self.refused(&format!("fmi2GetReal at {time} s"), error))?;
-        Ok(values)
+        unit.read(&references)
     }
+}
 
-    fn refused(&self, call: &str, error: impl std::fmt::Display) -> BadInput {
-        BadInput(format!("{}: {call}: {error}", self.shown))
-    }
+/// What an importer saw.
+struct Run {
+    rows: Vec<Vec<f64>>,
+    state_continues: Option<bool>,
+    reset_repeats: bool,
+}
+
+/// To the last bit; a NaN is no answer, and differs from itself.
+fn same(once: &[Vec<f64>], again: &[Vec<f64>]) -> bool {
+    once == again
 }
 
 fn difference(variable: &Variable, pairs: impl Iterator<Item = (f64, f64)>) -> Difference {

@@ -1,7 +1,7 @@
 //! What an archive says of itself, held against the joint in it: what importers' own checks miss.
 
 use crate::joint::Joint;
-use crate::pack::{FmiVersion, Library, PackError};
+use crate::pack::{FmiVersion, Library, PackError, Platform};
 use crate::variables::{MODEL_IDENTIFIER, Variables};
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
@@ -12,6 +12,8 @@ use std::path::Path;
 type Zip = zip::ZipArchive<File>;
 /// Attributes of an element by name.
 type Attributes = BTreeMap<String, String>;
+/// Names of elements and their attributes, in the order of the XML.
+pub type Elements = [(String, Attributes)];
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,45 +26,79 @@ pub struct Validation {
     pub notes: Vec<String>,
 }
 
-/// Entries that every archive of ours has.
+/// What importers read first.
+const DESCRIPTION: &str = "modelDescription.xml";
+/// Entries that every archive of ours has …
 const ENTRIES: [&str; 3] = [
-    "modelDescription.xml",
+    DESCRIPTION,
     "resources/joint.json",
     "documentation/index.html",
 ];
+/// … and one that FMI 3.0 has besides.
+const TERMINALS: &str = "terminalsAndIcons/terminalsAndIcons.xml";
 
 /// Lists the archive's entries and reads its XML.
-pub fn validate(archive: &Path, joint: &Joint, variables: &Variables) -> Validation {
+pub fn validate(
+    archive: &Path,
+    version: FmiVersion,
+    joint: &Joint,
+    variables: &Variables,
+) -> Validation {
     let mut found = Validation::default();
     let read = File::open(archive)
         .map_err(zip::result::ZipError::from)
         .and_then(Zip::new)
         .and_then(|mut zip| {
-            entries(&mut zip, &mut found)?;
-            let mut xml = String::new();
-            zip.by_name(ENTRIES[0])?.read_to_string(&mut xml)?;
-            Ok(xml)
+            entries(&mut zip, version, &mut found)?;
+            let description = text(&mut zip, DESCRIPTION)?;
+            let terminals = match version {
+                FmiVersion::Two => None,
+                FmiVersion::Three => text(&mut zip, TERMINALS).ok(),
+            };
+            Ok((description, terminals))
         });
-    match read.map(|xml| elements(&xml)) {
-        Ok(Ok(elements)) => {
-            interface(&elements, &mut found.faults);
-            described(&elements, joint, variables, &mut found.faults);
+    let (description, terminals) = match read {
+        Ok(texts) => texts,
+        Err(error) => {
+            found.faults.push(format!("the archive: {error}"));
+            return found;
         }
-        Ok(Err(error)) => found.faults.push(format!("{}: {error}", ENTRIES[0])),
-        Err(error) => found.faults.push(format!("the archive: {error}")),
+    };
+    match elements(&description) {
+        Ok(elements) => {
+            interface(&elements, &mut found.faults);
+            described(&elements, version, joint, variables, &mut found.faults);
+        }
+        Err(error) => found.faults.push(format!("{DESCRIPTION}: {error}")),
+    }
+    match terminals.as_deref().map(elements) {
+        Some(Ok(elements)) => connected(&elements, variables, &mut found.faults),
+        Some(Err(error)) => found.faults.push(format!("{TERMINALS}: {error}")),
+        None => {}
     }
     found
 }
 
-fn entries(zip: &mut Zip, found: &mut Validation) -> zip::result::ZipResult<()> {
+fn text(zip: &mut Zip, entry: &str) -> zip::result::ZipResult<String> {
+    let mut text = String::new();
+    zip.by_name(entry)?.read_to_string(&mut text)?;
+    Ok(text)
+}
+
+fn entries(
+    zip: &mut Zip,
+    version: FmiVersion,
+    found: &mut Validation,
+) -> zip::result::ZipResult<()> {
     let names: Vec<String> = zip.file_names().map(str::to_owned).collect();
-    for entry in ENTRIES {
+    let terminals = (version == FmiVersion::Three).then_some(TERMINALS);
+    for entry in ENTRIES.into_iter().chain(terminals) {
         if !names.iter().any(|name| name == entry) {
             found.faults.push(format!("{entry} is missing"));
         }
     }
     for name in names.iter().filter(|name| !name.ends_with('/')) {
-        let Some((platform, file)) = name
+        let Some((folder, file)) = name
             .strip_prefix("binaries/")
             .and_then(|rest| rest.split_once('/'))
         else {
@@ -70,10 +106,16 @@ fn entries(zip: &mut Zip, found: &mut Validation) -> zip::result::ZipResult<()> 
         };
         let mut bytes = Vec::new();
         zip.by_name(name)?.read_to_end(&mut bytes)?;
-        found.platforms.push(platform.to_owned());
-        match Library::of_bytes(platform, Path::new(name), bytes) {
-            Ok(library) if library.entry(FmiVersion::Two) != *name => {
-                let expected = library.entry(FmiVersion::Two);
+        let Some(platform) = Platform::of_folder(version, folder) else {
+            let version = version.number();
+            let note = format!("{name}: FMI {version} names no folder {folder}");
+            found.notes.push(note);
+            continue;
+        };
+        found.platforms.push(folder.to_owned());
+        let library = Library::of_bytes(platform.name, Path::new(name), bytes);
+        match library.map(|library| library.entry(version)) {
+            Ok(expected) if expected != *name => {
                 found
                     .faults
                     .push(format!("{name}: importers look for {expected}, not {file}"));
@@ -95,7 +137,10 @@ fn entries(zip: &mut Zip, found: &mut Validation) -> zip::result::ZipResult<()> 
 }
 
 /// Every element of the XML with its attributes, in order.
-fn elements(xml: &str) -> quick_xml::Result<Vec<(String, Attributes)>> {
+///
+/// # Errors
+/// What the XML's grammar is broken by.
+pub fn elements(xml: &str) -> quick_xml::Result<Vec<(String, Attributes)>> {
     let mut reader = quick_xml::Reader::from_str(xml);
     let mut elements = Vec::new();
     loop {
@@ -118,7 +163,7 @@ fn element(start: &BytesStart) -> quick_xml::Result<(String, Attributes)> {
     Ok((name, attributes))
 }
 
-fn interface(elements: &[(String, Attributes)], faults: &mut Vec<String>) {
+fn interface(elements: &Elements, faults: &mut Vec<String>) {
     let of = |name: &str| elements.iter().find(|element| element.0 == name);
     let identifier = of("CoSimulation").and_then(|unit| unit.1.get("modelIdentifier"));
     if identifier.map(String::as_str) != Some(MODEL_IDENTIFIER) {
@@ -135,19 +180,55 @@ fn interface(elements: &[(String, Attributes)], faults: &mut Vec<String>) {
     }
 }
 
+/// Every member of a terminal is a variable of the joint: a tool connects by these names.
+fn connected(elements: &Elements, variables: &Variables, faults: &mut Vec<String>) {
+    let members = elements
+        .iter()
+        .filter(|element| element.0 == "TerminalMemberVariable");
+    let names: Vec<_> = members
+        .map(|member| member.1.get("variableName").map_or("", String::as_str))
+        .collect();
+    if names.is_empty() {
+        faults.push(format!("{TERMINALS}: no terminal with a variable"));
+    }
+    for name in names {
+        if variables.iter().all(|variable| variable.name != name) {
+            faults.push(format!("{TERMINALS}: there is no variable {name:?}"));
+        }
+    }
+}
+
+/// Name → attributes of the variable and of its type, which in FMI 3.0 are one element. The
+/// independent variable, time, is the standard's and not the joint's.
+fn variables_of(
+    elements: &Elements,
+    version: FmiVersion,
+) -> BTreeMap<&str, (&Attributes, &Attributes)> {
+    let (outer, inner, between) = match version {
+        FmiVersion::Two => ("ScalarVariable", "Real", 1),
+        FmiVersion::Three => ("Float64", "Float64", 0),
+    };
+    let pairs = elements.iter().zip(elements.iter().skip(between));
+    pairs
+        .filter(|(variable, of_type)| variable.0 == outer && of_type.0 == inner)
+        .map(|(variable, of_type)| (&variable.1, &of_type.1))
+        .filter(|(variable, _)| {
+            variable.get("causality").map(String::as_str) != Some("independent")
+        })
+        .filter_map(|pair| Some((pair.0.get("name")?.as_str(), pair)))
+        .collect()
+}
+
 /// Every variable of the joint with its reference, unit, role, bounds and start value, and none
 /// besides.
 fn described(
-    elements: &[(String, Attributes)],
+    elements: &Elements,
+    version: FmiVersion,
     joint: &Joint,
     variables: &Variables,
     faults: &mut Vec<String>,
 ) {
-    let pairs = elements.windows(2);
-    let xml: BTreeMap<&str, (&Attributes, &Attributes)> = pairs
-        .filter(|pair| pair[0].0 == "ScalarVariable" && pair[1].0 == "Real")
-        .filter_map(|pair| Some((pair[0].1.get("name")?.as_str(), (&pair[0].1, &pair[1].1))))
-        .collect();
+    let xml = variables_of(elements, version);
     for stranger in xml
         .keys()
         .filter(|name| variables.iter().all(|v| v.name != **name))

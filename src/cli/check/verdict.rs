@@ -3,6 +3,7 @@
 use super::measured::Measured;
 use super::steps::{Steps, TOO_COARSE};
 use super::validation::Validation;
+use crate::pack::FmiVersion;
 use serde_json::{Value, json};
 
 /// Largest admissible difference, relative to the largest value of the same signal: the archive
@@ -36,14 +37,19 @@ impl Difference {
 /// What a comparison found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
+    /// Version of FMI.
+    pub version: FmiVersion,
     /// Samples compared.
     pub samples: usize,
     /// Name of the input.
     pub input: &'static str,
     /// One line per signal.
     pub differences: Vec<Difference>,
-    /// True where a state saved halfway, serialized and put back gave the same end to the bit.
-    pub state_continues: bool,
+    /// True where a state saved halfway, serialized and put back gave the same end to the bit;
+    /// `None` where the importer has no saved states.
+    pub state_continues: Option<bool>,
+    /// True where the whole run came out the same to the bit after a reset.
+    pub reset_repeats: bool,
     /// The record's answer beside the joint's, where there is one.
     pub measured: Option<Measured>,
     /// What the record asks of the importer's step, where there is a record.
@@ -53,10 +59,11 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// True where every difference is rounding and the saved state continued.
+    /// True where every difference is rounding, the saved state continued and the reset repeated.
     pub fn agrees(&self) -> bool {
         // `all` with `<=`: a NaN disagrees.
-        self.state_continues && self.differences.iter().all(|d| d.relative() <= TOLERANCE)
+        let close = self.differences.iter().all(|d| d.relative() <= TOLERANCE);
+        close && self.reset_repeats && self.state_continues != Some(false)
     }
 
     fn word(&self) -> &'static str {
@@ -66,7 +73,8 @@ impl Verdict {
     /// For reading.
     pub fn text(&self, archive: &str) -> String {
         let mut text = format!(
-            "{archive}: driven in {}, {} samples; libraries for {}\n",
+            "{archive}: FMI {}, driven in {}, {} samples; libraries for {}\n",
+            self.version.number(),
             self.input,
             self.samples,
             self.validation.platforms.join(", ")
@@ -90,13 +98,18 @@ impl Verdict {
                 difference.relative()
             );
         }
-        let state = if self.state_continues {
-            "continues to the last bit"
+        let state = match self.state_continues {
+            Some(true) => "A saved state continues to the last bit.",
+            Some(false) => "A saved state does NOT continue.",
+            None => "Saved states were not tried: this importer has none of FMI 3.0.",
+        };
+        let reset = if self.reset_repeats {
+            "After a reset the run repeats to the last bit."
         } else {
-            "does NOT continue"
+            "After a reset the run does NOT repeat."
         };
         text += &format!(
-            "\nA saved state {state}.\nThe archive {} with its joint.\n",
+            "\n{state}\n{reset}\nThe archive {} with its joint.\n",
             self.word()
         );
         text += &self
@@ -121,9 +134,11 @@ impl Verdict {
             .collect();
         let validation = &self.validation;
         let whole = json!({
-            "format": "iwan-check/1", "archive": archive, "input": self.input,
+            "format": "iwan-check/1", "archive": archive, "fmi": self.version.number(),
+            "input": self.input,
             "samples": self.samples, "differences": differences, "tolerance": TOLERANCE,
-            "state_continues": self.state_continues, "verdict": self.word(),
+            "state_continues": self.state_continues, "reset_repeats": self.reset_repeats,
+            "verdict": self.word(),
             "platforms": validation.platforms, "faults": validation.faults,
             "notes": validation.notes,
             "measured": self.measured.as_ref().map(measured_json),

@@ -4,6 +4,7 @@ use super::effects::Shown;
 use super::levels::Levels;
 use super::model::{Predicted, fit};
 use super::scatter::Scatter;
+use crate::diagnose::bootstrap::interval;
 use crate::diagnose::findings::Errors;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -64,14 +65,21 @@ pub fn against(levels: &Levels, row: usize, predicted: &Predicted, noise: &Scatt
     }
 }
 
-/// rms in units of the noise, and mean relative error of the loss.
+/// rms in units of the noise, mean relative errors of loss and stiffness; intervals by levels drawn
+/// with replacement.
 pub fn errors(seen: &[Unseen], unseen: &[Unseen]) -> Errors {
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+    let losses: Vec<f64> = unseen.iter().map(|level| level.loss.abs()).collect();
+    let slopes = unseen.iter().filter_map(|level| level.stiffness);
+    let slopes: Vec<f64> = slopes.map(f64::abs).collect();
     Errors {
         train_rms: rms(seen),
         held_out_rms: rms(unseen),
-        dissipation_error: Some(
-            unseen.iter().map(|level| level.loss.abs()).sum::<f64>() / unseen.len().max(1) as f64,
-        ),
+        held_out_interval: interval(unseen, rms),
+        dissipation_error: Some(mean(&losses)),
+        dissipation_interval: interval(&losses, mean),
+        stiffness_error: (!slopes.is_empty()).then(|| mean(&slopes)),
+        stiffness_interval: interval(&slopes, mean),
     }
 }
 

@@ -4,6 +4,7 @@
 //! stiffness `w_0 + Σ w min(1, d/X)`: both are linear in its sliders, so that one non-negative least
 //! squares problem asks whether any joint at all has the columns of the table.
 
+mod compared;
 mod effects;
 mod evidence;
 mod exported;
@@ -23,6 +24,7 @@ use super::findings::{
 use crate::identify::table::Known;
 use crate::joint::{Joint, JointError};
 use crate::record::AmplitudeTable;
+use compared::compared;
 use effects::Shown;
 use evidence::{Thresholds, simulate, thresholds, trials};
 use held_out::{Unseen, against, errors, ratio, unseen};
@@ -293,6 +295,8 @@ impl<'a> Search<'a> {
             baseline: before.clone(),
             extended: after.clone(),
             gain,
+            levels: compared(self.levels, tables, baseline, &self.model),
+            left_out: Vec::new(),
             unexplained: Unexplained {
                 share: match verdict {
                     Verdict::Clean => 0.0,

@@ -1,11 +1,12 @@
 //! A learned correction where no cause explains what is left: sparse in named features of the
 //! record, with a held-out gain of its own. It is no cause and enters no joint.
 
-use crate::diagnose::gain;
+use super::features::{Feature, features};
+use super::gram::Gram;
+use crate::diagnose::gain::{edges, ratio};
 use crate::diagnose::prepare::Bench;
+use crate::identify::Prediction;
 use crate::identify::problem::Weighing;
-use crate::identify::{Form, Prediction};
-use crate::record::cycles::cycles;
 
 /// A correction of the judged channel that is worth offering.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,174 +23,155 @@ pub struct Correction {
 }
 
 /// Most features of a correction.
-const MOST: usize = 5;
+const MOST: usize = 6;
 
-/// The features, each over its own largest magnitude: name and one value per sample and record.
-fn features(bench: &Bench, predictions: &[Prediction]) -> Vec<(&'static str, Vec<Vec<f64>>)> {
-    let problem = &bench.whole;
-    let force_driven = problem.operators.form == Form::Play;
-    let mut all: Vec<(&'static str, Vec<Vec<f64>>)> = Vec::new();
-    for (k, prediction) in predictions.iter().enumerate() {
-        let record = &problem.records[k];
-        let (input, _) = problem.channels(k);
-        let output = &prediction.judged;
-        let count = input.len();
-        let names = match force_driven {
-            true => ("force", "displacement"),
-            false => ("displacement", "force"),
-        };
-        let x = unit(input);
-        let y = unit(output);
-        let mut turns = vec![0.0; count];
-        for (n, cycle) in cycles(input).iter().enumerate() {
-            turns[cycle.start..].fill(n as f64 + 1.0);
-        }
-        let age = unit(&turns);
-        let rate = unit(&rate_of(&x, &record.steps));
-        let rate_out = unit(&rate_of(&y, &record.steps));
-        let mut work = 0.0;
-        let work: Vec<f64> = (0..count)
-            .map(|i| {
-                if i > 0 {
-                    work += (y[i] - y[i - 1]).abs() * x[i].abs();
-                }
-                work
-            })
-            .collect();
-        let work = unit(&work);
-        let late: Vec<f64> = age.iter().map(|n| 1.0 - (-5.0 * n).exp()).collect();
-        let by = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Vec<f64>>();
-        let each = |a: &[f64], of: fn(f64) -> f64| a.iter().map(|a| of(*a)).collect::<Vec<f64>>();
-        let own: [(&'static str, Vec<f64>); 17] = [
-            (names.0, x.clone()),
-            ("square of the input", each(&x, |x| x * x)),
-            ("cube of the input", each(&x, |x| x * x * x)),
-            ("magnitude of the input", each(&x, f64::abs)),
-            (names.1, y.clone()),
-            ("square of the response", each(&y, |y| y * y)),
-            ("cube of the response", each(&y, |y| y * y * y)),
-            ("rate of the input", rate.clone()),
-            ("rate of the response", rate_out.clone()),
-            ("direction of the input", each(&rate, f64::signum)),
-            (
-                "direction times magnitude of the input",
-                by(&each(&rate, f64::signum), &each(&x, f64::abs)),
-            ),
-            ("cycle number", age.clone()),
-            ("cycle number times the input", by(&age, &x)),
-            ("first cycles times the input", by(&late, &x)),
-            (
-                "first cycles times the direction",
-                by(&late, &each(&rate, f64::signum)),
-            ),
-            ("work so far times the input", by(&work, &x)),
-            ("work so far times the response", by(&work, &y)),
-        ];
-        if all.is_empty() {
-            all = own.iter().map(|(name, _)| (*name, Vec::new())).collect();
-        }
-        for (feature, (_, values)) in all.iter_mut().zip(own) {
-            feature.1.push(values);
-        }
-    }
-    all
-}
+/// Parts the cycles of the fit are dealt to, each predicted by the others.
+const FOLDS: usize = 5;
 
-/// Over its own largest magnitude.
-fn unit(values: &[f64]) -> Vec<f64> {
-    let largest = values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let scale = if largest > 0.0 { largest.recip() } else { 0.0 };
-    values.iter().map(|v| v * scale).collect()
-}
+/// Share of the error across the parts that a further feature must take away.
+const FURTHER: f64 = 0.005;
 
-/// Backward differences per step.
-fn rate_of(values: &[f64], steps: &[f64]) -> Vec<f64> {
-    (0..values.len())
-        .map(|i| match i > 0 && steps[i] > 0.0 {
-            true => (values[i] - values[i - 1]) / steps[i],
-            false => 0.0,
-        })
-        .collect()
-}
+/// Held-out rms, with over without, from which a correction is worth offering.
+const WORTH: f64 = 0.98;
 
-/// Learns a correction on the samples of the fit, one feature after the other as long as the
-/// penalised likelihood gains, and offers it only where its held-out gain is sure.
+/// Learns a correction on the samples of the fit, one feature after the other as long as cycles
+/// that the coefficients have not seen are predicted better, and offers it only where its gain on the
+/// held-out samples, which had no part in that, is sure.
 pub fn correction(bench: &Bench, after: &[Prediction], unit: &str) -> Option<Correction> {
     let features = features(bench, after);
-    let problem = &bench.train;
-    let columns = features.len();
-    // Products of the whitened features, offsets first, with the whitened residual last.
-    let records = problem.records.len();
-    let size = records + columns + 1;
-    let mut products = vec![0.0; size * size];
-    let mut rows = 0.0_f64;
-    for k in 0..records {
-        let (_, judged) = problem.channels(k);
-        let mut weighing = Weighing::new(&problem.records[k], size);
-        let mut row = vec![0.0; size];
-        row[k] = 1.0;
-        for (i, measured) in judged.iter().enumerate() {
-            for (value, feature) in row[records..].iter_mut().zip(&features) {
-                *value = feature.1[k][i];
-            }
-            row[size - 1] = measured - after[k].judged[i];
-            if let Some(white) = weighing.weigh(i, &row) {
-                rows += 1.0;
-                for (a, x) in white.iter().enumerate() {
-                    for (b, y) in white.iter().enumerate() {
-                        products[a * size + b] += x * y;
-                    }
-                }
-            }
-        }
-    }
-    let mut gram = super::gram::Gram { size, products };
-    gram.sweep(&(0..records).collect::<Vec<_>>());
-    let target = size - 1;
-    let mut chosen: Vec<usize> = Vec::new();
-    let mut left = gram.at(target, target);
-    while chosen.len() < MOST {
-        let best = (records..target)
-            .filter(|c| !chosen.contains(c))
-            .map(|c| {
-                let mut with = chosen.clone();
-                with.push(c);
-                (gram.left(target, &with), c)
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((less, feature)) = best else { break };
-        // BIC, counted in what is left per sample: noise is not white where structure is.
-        let scale = (less / rows.max(1.0)).max(1.0);
-        if (left - less) / scale < 3.0 * rows.max(3.0).ln() {
-            break;
-        }
-        chosen.push(feature);
-        left = less;
-    }
+    let learning = Learning::new(bench, after, &features);
+    let chosen = learning.chosen();
     if chosen.is_empty() {
         return None;
     }
-    let coefficients = gram.coefficients(target, &chosen)?;
+    let coefficients = learning.coefficients(&learning.whole, &chosen)?;
     let corrected: Vec<Prediction> = after
         .iter()
         .enumerate()
         .map(|(k, prediction)| {
             let mut corrected = prediction.clone();
-            for (c, &feature) in coefficients.iter().zip(&chosen) {
-                let values = &features[feature - records].1[k];
-                let both = corrected.judged.iter_mut().zip(values);
+            corrected
+                .judged
+                .iter_mut()
+                .for_each(|y| *y += coefficients[k]);
+            for (c, &feature) in coefficients[learning.records..].iter().zip(&chosen) {
+                let both = corrected
+                    .judged
+                    .iter_mut()
+                    .zip(&features[feature].values[k]);
                 both.for_each(|(y, x)| *y += c * x);
             }
             corrected
         })
         .collect();
-    let (ratio, interval) = gain::ratio(bench, after, &corrected);
-    let interval = interval.filter(|i| i.1 < 1.0)?;
-    let names = chosen.iter().map(|&f| features[f - records].0.to_string());
+    let (ratio, interval) = ratio(bench, after, &corrected);
+    let interval = interval.filter(|i| i.1 < 1.0 && ratio < WORTH)?;
+    let names = chosen.iter().map(|&f| features[f].name.clone());
     Some(Correction {
-        terms: names.zip(coefficients).collect(),
+        terms: names
+            .zip(coefficients[learning.records..].iter().copied())
+            .collect(),
         unit: unit.to_string(),
         ratio,
         interval,
     })
+}
+
+/// Products of the whitened columns: an offset per record, the features, and the residual last.
+struct Learning {
+    records: usize,
+    features: usize,
+    whole: Gram,
+    parts: Vec<Gram>,
+}
+
+impl Learning {
+    fn new(bench: &Bench, after: &[Prediction], features: &[Feature]) -> Learning {
+        let problem = &bench.train;
+        let records = problem.records.len();
+        let size = records + features.len() + 1;
+        let mut parts = vec![Gram::new(size); FOLDS];
+        for k in 0..records {
+            let (input, judged) = problem.channels(k);
+            let edges = edges(input);
+            let mut weighing = Weighing::new(&problem.records[k], size);
+            let mut row = vec![0.0; size];
+            row[k] = 1.0;
+            let mut block = 0;
+            for (i, measured) in judged.iter().enumerate() {
+                while edges.get(block + 1).is_some_and(|end| i >= *end) {
+                    block += 1;
+                }
+                for (value, feature) in row[records..].iter_mut().zip(features) {
+                    *value = feature.values[k][i];
+                }
+                row[size - 1] = measured - after[k].judged[i];
+                if let Some(white) = weighing.weigh(i, &row) {
+                    let products = &mut parts[block % FOLDS].products;
+                    for (a, x) in white.iter().enumerate() {
+                        let line = products[a * size..(a + 1) * size].iter_mut();
+                        line.zip(white).for_each(|(p, y)| *p += x * y);
+                    }
+                }
+            }
+        }
+        let whole = parts.iter().fold(Gram::new(size), |sum, p| sum.plus(p));
+        Learning {
+            records,
+            features: features.len(),
+            whole,
+            parts,
+        }
+    }
+
+    /// Columns of the offsets and of the given features.
+    fn members(&self, chosen: &[usize]) -> Vec<usize> {
+        let features = chosen.iter().map(|f| self.records + f);
+        (0..self.records).chain(features).collect()
+    }
+
+    fn coefficients(&self, gram: &Gram, chosen: &[usize]) -> Option<Vec<f64>> {
+        gram.coefficients(self.whole.size - 1, &self.members(chosen))
+    }
+
+    /// Squared error of every part as the others predict it.
+    fn across(&self, chosen: &[usize]) -> Option<f64> {
+        let members = self.members(chosen);
+        let target = self.whole.size - 1;
+        let mut error = 0.0;
+        for part in &self.parts {
+            let coefficients = self.coefficients(&self.whole.minus(part), chosen)?;
+            let both = || coefficients.iter().zip(&members);
+            error += part.at(target, target);
+            for (c, &i) in both() {
+                error -= 2.0 * c * part.at(i, target);
+                error += both().map(|(d, &j)| c * d * part.at(i, j)).sum::<f64>();
+            }
+        }
+        error.is_finite().then_some(error)
+    }
+
+    /// Features, one after the other, that predict the parts best.
+    fn chosen(&self) -> Vec<usize> {
+        let mut chosen: Vec<usize> = Vec::new();
+        let Some(mut left) = self.across(&chosen) else {
+            return chosen;
+        };
+        while chosen.len() < MOST {
+            let others = (0..self.features).filter(|f| !chosen.contains(f));
+            let best = others
+                .filter_map(|f| {
+                    let with: Vec<usize> = chosen.iter().copied().chain([f]).collect();
+                    Some((self.across(&with)?, f))
+                })
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((less, feature)) = best else { break };
+            if less > (1.0 - FURTHER) * left {
+                break;
+            }
+            chosen.push(feature);
+            left = less;
+        }
+        chosen
+    }
 }

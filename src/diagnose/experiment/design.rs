@@ -9,6 +9,7 @@ use super::separability::{TOLD, swept};
 use super::shape::{Shape, columns, products, shapes};
 use crate::causes::{Cause, Scale};
 use crate::diagnose::search::NEARLY;
+use crate::diagnose::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Form, Prepared, Problem, refit};
 use crate::joint::effect::Acting;
 
@@ -26,11 +27,48 @@ pub struct Question {
 /// Blocks of a program at most.
 const BLOCKS: usize = 6;
 
-/// χ² at which a program is long enough: four times what tells two causes apart.
-const ENOUGH: f64 = 4.0 * TOLD;
+/// Different blocks that a program has at least, where they bring anything: what one kind of block
+/// tells apart hangs on the law of the cause being true there.
+const KINDS: usize = 3;
 
-/// Multiple of [`NEARLY`] beyond which a larger share is no better.
-const CLEARLY: f64 = 2.0;
+/// Multiple of what is needed at which a question is surely settled: the look ahead is of first
+/// order, and noise takes its share.
+const SURE: f64 = 4.0;
+
+/// How far one question is settled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standing {
+    /// χ² that the rival leaves.
+    pub lambda: f64,
+    /// χ² that the baseline alone leaves: what the cause brings.
+    pub alone: f64,
+    /// χ² that is needed.
+    pub needed: f64,
+}
+
+impl Standing {
+    /// Judges a χ² on so many samples: beyond [`TOLD`], what a law that is only nearly true may
+    /// leave does not count, as it does not in the search.
+    pub fn new(lambda: f64, alone: f64, rows: f64) -> Standing {
+        let alone = alone.max(lambda);
+        Standing {
+            lambda,
+            alone,
+            needed: TOLD + (NEARLY * alone).min(NEGLIGIBLE * rows),
+        }
+    }
+
+    /// χ² over what is needed.
+    pub fn ratio(&self) -> f64 {
+        self.lambda / self.needed
+    }
+}
+
+/// The one that is settled least.
+pub fn least(standings: &[Standing]) -> Option<Standing> {
+    let each = standings.iter().copied();
+    each.min_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+}
 
 /// What is known before the experiment, and what is asked.
 pub struct Design<'a> {
@@ -40,20 +78,22 @@ pub struct Design<'a> {
     pub coefficients: &'a [f64],
     /// Questions to settle.
     pub questions: &'a [Question],
-    /// The rig.
-    pub rig: Rig,
+    /// Samples of the records.
+    pub rows: f64,
     shapes: Vec<Shape>,
     before: Gram,
 }
 
 /// A chosen program.
 pub struct Chosen {
+    /// The rig that plays it.
+    pub rig: Rig,
     /// Its blocks.
     pub blocks: Vec<Block>,
-    /// χ² per question with the loading so far, and with the program besides (first order).
-    pub lambdas: Vec<(f64, f64)>,
-    /// Least share that a rival leaves, with the program, of what the cause brings.
-    pub share: f64,
+    /// The questions with the loading so far, to first order.
+    pub before: Vec<Standing>,
+    /// The questions with the program besides, to first order.
+    pub after: Vec<Standing>,
 }
 
 impl<'a> Design<'a> {
@@ -62,7 +102,7 @@ impl<'a> Design<'a> {
         problem: &'a Problem,
         coefficients: &'a [f64],
         questions: &'a [Question],
-        rig: Rig,
+        rows: f64,
         scale: &Scale,
     ) -> Design<'a> {
         let mut asked: Vec<&'static dyn Cause> = Vec::new();
@@ -82,14 +122,14 @@ impl<'a> Design<'a> {
             problem,
             coefficients,
             questions,
-            rig,
+            rows,
             shapes,
             before,
         }
     }
 
-    /// χ² of every question for the given products, and its share of what the cause brings.
-    fn lambdas(&self, gram: &Gram) -> Vec<(f64, f64)> {
+    /// Every question for the given products of so many samples.
+    fn standings(&self, gram: &Gram, rows: f64) -> Vec<Standing> {
         let swept = swept(gram, self.coefficients);
         let columns = self.coefficients.len();
         let each = self.questions.iter().enumerate().map(|(q, question)| {
@@ -106,75 +146,91 @@ impl<'a> Design<'a> {
                     swept.left(of, &given.iter().map(|m| m.0).collect::<Vec<_>>())
                 })
                 .fold(alone, f64::min);
-            match question.rival.as_str() {
-                "none" => (left, 1.0),
-                _ => (left, left / alone.max(f64::MIN_POSITIVE)),
-            }
+            Standing::new(left, alone, rows)
         });
         each.collect()
     }
 
-    fn with(&self, blocks: &[Block]) -> Vec<(f64, f64)> {
-        let program = program(self.problem, &self.rig, blocks);
+    fn with(&self, rig: &Rig, blocks: &[Block]) -> Vec<Standing> {
+        let program = program(self.problem, rig, blocks);
         let extra = columns(&program, self.coefficients, &self.shapes);
-        self.lambdas(
-            &self
-                .before
-                .plus(&products(&program, self.coefficients, &extra)),
-        )
+        let products = products(&program, self.coefficients, &extra);
+        let rows = self.rows + program.rows() as f64;
+        self.standings(&self.before.plus(&products), rows)
+    }
+
+    /// The program of the first rig that surely settles every question, else of the rig that comes
+    /// nearest to it. Rigs come in the order of how far they go beyond what was measured: laws are
+    /// truest near where they were fitted.
+    pub fn choose(&self, rigs: &[Rig]) -> Option<Chosen> {
+        let ratio = |chosen: &Chosen| least(&chosen.after).map_or(0.0, |s| s.ratio());
+        let mut best: Option<Chosen> = None;
+        for rig in rigs {
+            let Some(chosen) = self.grown(*rig) else {
+                continue;
+            };
+            if ratio(&chosen) > best.as_ref().map_or(0.0, ratio) {
+                best = Some(chosen);
+            }
+            if best.as_ref().map_or(0.0, ratio) >= SURE {
+                break;
+            }
+        }
+        best
     }
 
     /// Adds the block that helps most until every question is settled or the time is used up.
-    pub fn choose(&self) -> Option<Chosen> {
-        let before = self.lambdas(&self.before);
-        let menu = self.rig.menu();
+    fn grown(&self, rig: Rig) -> Option<Chosen> {
+        let before = self.standings(&self.before, self.rows);
+        let menu = rig.menu();
         let mut blocks: Vec<Block> = Vec::new();
         let mut best = before.clone();
-        for _ in 0..BLOCKS {
+        while blocks.len() < BLOCKS {
             // The way back to zero at the end takes a cycle of the last block.
-            let lasts = |b: &Block| b.seconds(&self.rig) + 1.0 / (b.rate * self.rig.rate);
-            let used: f64 = blocks.iter().map(|b| b.seconds(&self.rig)).sum();
+            let lasts = |b: &Block| b.seconds(&rig) + 1.0 / (b.rate * rig.rate);
+            let used: f64 = blocks.iter().map(|b| b.seconds(&rig)).sum();
             let next = menu
                 .par_iter()
-                .filter(|block| used + lasts(block) <= self.rig.longest())
+                .filter(|block| used + lasts(block) <= rig.longest())
+                .filter(|block| blocks.len() >= KINDS || !blocks.contains(block))
                 .map(|block| {
                     let mut longer = blocks.clone();
                     longer.push(*block);
-                    let lambdas = self.with(&longer);
-                    (worth(&lambdas), longer, lambdas)
+                    let standings = self.with(&rig, &longer);
+                    (worth(&standings), longer, standings)
                 })
                 .max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((gained, longer, lambdas)) = next else {
+            let Some((gained, longer, standings)) = next else {
                 break;
             };
             if gained <= worth(&best) {
                 break;
             }
-            (blocks, best) = (longer, lambdas);
-            if best
-                .iter()
-                .all(|l| l.0 >= ENOUGH && l.1 >= CLEARLY * NEARLY)
-            {
+            (blocks, best) = (longer, standings);
+            if blocks.len() >= KINDS && best.iter().all(|s| s.ratio() >= SURE) {
                 break;
             }
         }
-        (!blocks.is_empty()).then(|| Chosen {
+        (!blocks.is_empty()).then_some(Chosen {
+            rig,
             blocks,
-            share: best.iter().map(|l| l.1).fold(f64::INFINITY, f64::min),
-            lambdas: before.iter().zip(&best).map(|(b, a)| (b.0, a.0)).collect(),
+            before,
+            after: best,
         })
     }
 }
 
-/// The worst question first, beyond that the others: how far each is settled in χ² and as a share
-/// of what its cause brings.
-fn worth(lambdas: &[(f64, f64)]) -> f64 {
+/// The worst question first, beyond that the others; beyond what is sure a larger χ² still counts,
+/// but little.
+fn worth(standings: &[Standing]) -> f64 {
     let settled = || {
-        let each = lambdas.iter();
-        each.map(|l| l.0.min(ENOUGH) * (l.1 / NEARLY).min(CLEARLY))
+        standings.iter().map(|s| {
+            let ratio = s.ratio() / SURE;
+            ratio.min(1.0) + 0.05 * ratio.max(1.0).ln()
+        })
     };
     let worst = settled().fold(f64::INFINITY, f64::min);
-    worst + 0.1 * settled().sum::<f64>() / lambdas.len().max(1) as f64
+    worst + 0.1 * settled().sum::<f64>() / standings.len().max(1) as f64
 }
 
 /// A program as a problem of its own, measured as the records are.

@@ -54,6 +54,14 @@ impl Gram {
         sum
     }
 
+    /// Takes an experiment's products away again.
+    pub fn minus(&self, other: &Gram) -> Gram {
+        let mut rest = self.clone();
+        let pairs = rest.products.iter_mut().zip(&other.products);
+        pairs.for_each(|(a, b)| *a -= b);
+        rest
+    }
+
     /// Projects every column off the given ones (Schur complement, one pivot after the other).
     pub fn sweep(&mut self, given: &[usize]) {
         let n = self.size;

@@ -4,6 +4,7 @@
 pub mod correction;
 mod design;
 pub mod dummy;
+mod features;
 mod gram;
 pub mod limits;
 pub mod loading;

@@ -1,12 +1,11 @@
 //! From open questions to the next experiment, or to why there is none.
 
-use super::design::{Chosen, Design, Question, program, refitted};
-use super::limits::{Limits, rig};
+use super::design::{Chosen, Design, Question, Standing, least, program, refitted};
+use super::limits::{Limits, rigs};
 use super::separability::{Map, TOLD};
 use crate::causes::{Cause, Kind, find};
 use crate::diagnose::findings::Findings;
 use crate::diagnose::prepare::Bench;
-use crate::diagnose::search::NEARLY;
 use crate::identify::{Fit, Form, Problem};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
@@ -95,9 +94,9 @@ pub fn next(
     if questions.is_empty() {
         return None;
     }
-    let rig = rig(bench, limits);
-    let design = Design::new(problem, &whole.coefficients, &questions, rig, &bench.scale);
-    let chosen = design.choose();
+    let rows = bench.whole.rows() as f64;
+    let design = Design::new(problem, &whole.coefficients, &questions, rows, &bench.scale);
+    let chosen = design.choose(&rigs(bench, limits));
     let mut causes: Vec<String> = Vec::new();
     for question in &questions {
         for name in [question.cause.name(), &question.rival] {
@@ -111,26 +110,23 @@ pub fn next(
         Form::Stop => ("displacement", "m"),
     };
     let (before, after) = match &chosen {
-        None => (f64::NAN, f64::NAN),
+        None => (None, None),
         Some(chosen) if named => refits(&design, chosen, known, whole),
-        Some(chosen) => (
-            chosen
-                .lambdas
-                .iter()
-                .map(|l| l.0)
-                .fold(f64::INFINITY, f64::min),
-            chosen
-                .lambdas
-                .iter()
-                .map(|l| l.1)
-                .fold(f64::INFINITY, f64::min),
-        ),
+        Some(chosen) => (least(&chosen.before), least(&chosen.after)),
     };
-    let share = chosen.as_ref().map_or(0.0, |c| c.share);
-    let settles = after >= TOLD && share >= NEARLY;
+    let settles = after.is_some_and(|s| s.ratio() >= 1.0);
+    let needed = after.map_or(f64::NAN, |s| s.needed);
+    let lambda = |standing: Option<Standing>| standing.map_or(f64::NAN, |s| s.lambda);
+    let (before, after) = (lambda(before), lambda(after));
     let instead = (!settles).then(|| instead(&causes));
-    let blocks = chosen.map_or(Vec::new(), |c| c.blocks);
-    let (time, values) = rig.play(&blocks);
+    let (blocks, time, values) = match chosen {
+        None => (Vec::new(), Vec::new(), Vec::new()),
+        Some(chosen) => {
+            let (time, values) = chosen.rig.play(&chosen.blocks);
+            let words = chosen.blocks.iter().map(|b| b.words(&chosen.rig, unit));
+            (words.collect(), time, values)
+        }
+    };
     let purpose = match named {
         true => format!("To tell {} apart", causes.join(" and ")),
         false => format!("To show {} at a size that would matter", causes.join(", ")),
@@ -143,17 +139,16 @@ pub fn next(
             format!("{purpose}: not with this rig, no program fits its limits; {instead}")
         }
         (Some(instead), false) if after >= TOLD => format!(
-            "{purpose}: hardly with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, but that is {:.1} % of what the cause brings, and no law is that true; {instead}",
-            100.0 * share
+            "{purpose}: hardly with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {needed:.0} is needed, because no law is true to the last digit; {instead}"
         ),
         (Some(instead), false) => format!(
-            "{purpose}: not with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {TOLD:.0} is needed; {instead}"
+            "{purpose}: not with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {needed:.0} is needed; {instead}"
         ),
     };
     Some(Experiment {
         description,
         causes,
-        blocks: blocks.iter().map(|b| b.words(&rig, unit)).collect(),
+        blocks,
         drive: drive.to_string(),
         unit: unit.to_string(),
         time,
@@ -165,15 +160,17 @@ pub fn next(
     })
 }
 
-/// Least χ² before and after, by joint refits of every rival to every other.
+/// The question that is settled least, before and after, by joint refits of every rival to every
+/// other.
 fn refits(
     design: &Design,
     chosen: &Chosen,
     known: &[(&'static dyn Cause, Acting)],
     whole: &Fit,
-) -> (f64, f64) {
+) -> (Option<Standing>, Option<Standing>) {
     let mut both = design.problem.clone();
-    let program = program(design.problem, &design.rig, &chosen.blocks);
+    let program = program(design.problem, &chosen.rig, &chosen.blocks);
+    let more = program.rows() as f64;
     both.records.extend(program.records);
     let asked: Vec<&str> = design.questions.iter().map(|q| q.cause.name()).collect();
     let others: Vec<Acting> = whole
@@ -182,20 +179,19 @@ fn refits(
         .filter(|a| !asked.contains(&a.effect.name()))
         .cloned()
         .collect();
-    let least = |problem: &Problem| -> f64 {
+    let worst = |problem: &Problem, rows: f64| {
         let each = design.questions.par_iter().map(|question| {
             let rival = known.iter().find(|k| k.0.name() == question.rival);
-            refitted(
-                problem,
-                whole,
-                &question.acting,
-                rival.map(|k| &k.1),
-                &others,
-            )
+            let left =
+                |rival: Option<&Acting>| refitted(problem, whole, &question.acting, rival, &others);
+            Standing::new(left(rival.map(|k| &k.1)), left(None), rows)
         });
-        each.reduce(|| f64::INFINITY, f64::min)
+        least(&each.collect::<Vec<_>>())
     };
-    (least(design.problem), least(&both))
+    (
+        worst(design.problem, design.rows),
+        worst(&both, design.rows + more),
+    )
 }
 
 /// What would settle it, where no program does.

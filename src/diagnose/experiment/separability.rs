@@ -41,6 +41,9 @@ pub struct Separable {
     /// What it is mistaken for: rivals that leave less than [`TOLD`], or the nearest one, with the
     /// χ² that each leaves; `none` for the baseline alone.
     pub rivals: Vec<(String, f64)>,
+    /// The χ² that every rival leaves, `none` first: a row of the map. Beside the nearest ones
+    /// without regard to the bounds of the dictionary, so that it errs to the low side.
+    pub row: Vec<(String, f64)>,
 }
 
 /// The map, and what the design of an experiment needs of it.
@@ -164,16 +167,17 @@ impl Look<'_> {
             }
         }
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut rivals: Vec<(String, f64)> = near
-            .iter()
-            .enumerate()
-            .filter(|(k, n)| *k < CLOSELY || n.0 < TOLD)
-            .map(|(_, (_, rival))| {
-                let left = refitted(&rival.members(self.coefficients.len()));
-                (rival.cause.name().to_string(), left.min(baseline))
-            })
+        let left = near.iter().enumerate().map(|(k, (far, rival))| {
+            let left = match k < CLOSELY || *far < TOLD {
+                true => refitted(&rival.members(self.coefficients.len())),
+                false => *far,
+            };
+            (rival.cause.name().to_string(), left.min(baseline))
+        });
+        let row: Vec<(String, f64)> = std::iter::once(("none".to_string(), baseline))
+            .chain(left)
             .collect();
-        rivals.push(("none".to_string(), baseline));
+        let mut rivals = row.clone();
         rivals.sort_by(|a, b| a.1.total_cmp(&b.1));
         if baseline < TOLD {
             // What the baseline takes as its own is no matter of rivals.
@@ -193,6 +197,7 @@ impl Look<'_> {
             lambda,
             baseline,
             rivals,
+            row,
         };
         (line, acting)
     }

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::gram::Gram;
 use crate::causes::{Cause, Scale};
-use crate::identify::march::Rows;
 use crate::identify::nonnegative::Normal;
 use crate::identify::problem::Weighing;
+use crate::identify::rows::Rows;
 use crate::identify::{Prediction, Problem};
 use crate::joint::effect::Acting;
 

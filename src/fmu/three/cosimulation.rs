@@ -86,20 +86,10 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     sensitivity: *mut f64,
     sensitivity_count: size_t,
 ) -> Status {
-    // SAFETY: arrays as the standard asks.
-    let body = |instance: &mut Instance| unsafe {
-        scalars("nSeed", known_count, seed_count)?;
-        scalars("nSensitivity", unknown_count, sensitivity_count)?;
-        let unknowns = pointers::slice("unknowns", unknowns, unknown_count)?;
-        instance.check_knowns(pointers::slice("knowns", knowns, known_count)?)?;
-        let seed: f64 = pointers::slice("seed", seed, seed_count)?.iter().sum();
-        let places = Destination::new("sensitivity", sensitivity, sensitivity_count)?;
-        instance.slopes(unknowns, |place, slope| {
-            places.write_at(place, slope * seed)
-        })
-    };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(instance, calls::GET_DIRECTIONAL_DERIVATIVE_3, body) }
+    let variables = [(unknowns, unknown_count), (knowns, known_count)];
+    let (seed, answers) = ((seed, seed_count), (sensitivity, sensitivity_count));
+    // SAFETY: handle and arrays as the standard asks.
+    unsafe { Product::Directional.write(instance, variables, seed, answers) }
 }
 
 /// The transposed product: seeds of outputs, summed with their derivatives, per known.
@@ -118,19 +108,62 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     sensitivity: *mut f64,
     sensitivity_count: size_t,
 ) -> Status {
-    // SAFETY: arrays as the standard asks.
-    let body = |instance: &mut Instance| unsafe {
-        scalars("nSeed", unknown_count, seed_count)?;
-        scalars("nSensitivity", known_count, sensitivity_count)?;
-        let unknowns = pointers::slice("unknowns", unknowns, unknown_count)?;
-        instance.check_knowns(pointers::slice("knowns", knowns, known_count)?)?;
-        let seed = pointers::slice("seed", seed, seed_count)?;
-        let places = Destination::new("sensitivity", sensitivity, sensitivity_count)?;
-        let mut sum = 0.0;
-        instance.slopes(unknowns, |place, slope| sum += slope * seed[place])?;
-        (0..known_count).for_each(|place| places.write_at(place, sum));
-        Ok(())
-    };
-    // SAFETY: handle as the standard asks.
-    unsafe { call(instance, calls::GET_ADJOINT_DERIVATIVE_3, body) }
+    let variables = [(unknowns, unknown_count), (knowns, known_count)];
+    let (seed, answers) = ((seed, seed_count), (sensitivity, sensitivity_count));
+    // SAFETY: handle and arrays as the standard asks.
+    unsafe { Product::Adjoint.write(instance, variables, seed, answers) }
+}
+
+/// Which product of derivatives and seed is asked for.
+#[derive(Clone, Copy)]
+enum Product {
+    /// A seed per known, an answer per unknown.
+    Directional,
+    /// A seed per unknown, an answer per known.
+    Adjoint,
+}
+
+impl Product {
+    /// Either product over the same arrays, under the same checks. There is one input: where it is
+    /// named twice its seeds add up, and each naming gets the same answer.
+    ///
+    /// # Safety
+    /// As the FMI standard asks: a handle of this library, the counted items in each array.
+    unsafe fn write(
+        self,
+        instance: Component,
+        [unknowns, knowns]: [(*const u32, size_t); 2],
+        seed: (*const f64, size_t),
+        answers: (*mut f64, size_t),
+    ) -> Status {
+        let (function, seeded, answered) = match self {
+            Product::Directional => (calls::GET_DIRECTIONAL_DERIVATIVE_3, knowns.1, unknowns.1),
+            Product::Adjoint => (calls::GET_ADJOINT_DERIVATIVE_3, unknowns.1, knowns.1),
+        };
+        // SAFETY: arrays by this function's contract.
+        let body = |instance: &mut Instance| unsafe {
+            scalars("nSeed", seeded, seed.1)?;
+            scalars("nSensitivity", answered, answers.1)?;
+            let unknowns = pointers::slice("unknowns", unknowns.0, unknowns.1)?;
+            instance.check_knowns(pointers::slice("knowns", knowns.0, knowns.1)?)?;
+            let seed = pointers::slice("seed", seed.0, seed.1)?;
+            let places = Destination::new("sensitivity", answers.0, answers.1)?;
+            match self {
+                Product::Directional => {
+                    let seed: f64 = seed.iter().sum();
+                    instance.slopes(unknowns, |place, slope| {
+                        places.write_at(place, slope * seed)
+                    })
+                }
+                Product::Adjoint => {
+                    let mut sum = 0.0;
+                    instance.slopes(unknowns, |place, slope| sum += slope * seed[place])?;
+                    (0..answered).for_each(|place| places.write_at(place, sum));
+                    Ok(())
+                }
+            }
+        };
+        // SAFETY: handle by this function's contract.
+        unsafe { call(instance, function, body) }
+    }
 }

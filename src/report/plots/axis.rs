@@ -68,6 +68,24 @@ impl Axis {
         if !(smallest > 0.0 && largest > 30.0 * smallest) {
             return Axis::over(name, unit, values.chain([0.0]), count);
         }
+        Some(Axis::decades(name, unit, smallest, largest))
+    }
+
+    /// Logarithmic where the values are positive and span more than a factor of two, else linear.
+    pub(super) fn logarithmic(
+        name: &str,
+        unit: &str,
+        values: impl Iterator<Item = f64> + Clone,
+        count: usize,
+    ) -> Option<Axis> {
+        let (smallest, largest) = extent(values.clone())?;
+        if smallest > 0.0 && largest > 2.0 * smallest {
+            return Some(Axis::decades(name, unit, smallest, largest));
+        }
+        Axis::over(name, unit, values, count)
+    }
+
+    fn decades(name: &str, unit: &str, smallest: f64, largest: f64) -> Axis {
         let scale = Scale::of(largest, unit);
         let (lower, upper) = (scale.shown(smallest).log10(), scale.shown(largest).log10());
         let room = MARGIN * (upper - lower);
@@ -83,7 +101,7 @@ impl Axis {
                 .map(move |mark| (mark * 10f64.powi(decade)).log10())
         });
         let (lower, upper) = (lower - room, upper + room);
-        Some(Axis {
+        Axis {
             title: titled(name, &scale.unit),
             lower,
             upper,
@@ -93,7 +111,7 @@ impl Axis {
             scale,
             decimals: 0,
             logarithmic: true,
-        })
+        }
     }
 
     /// The same axis with ticks at whole numbers only.

@@ -15,6 +15,10 @@ pub(super) fn draw(
     findings: &Findings,
     curves: &RecordCurves,
 ) -> Result<Option<Figure>, ReportError> {
+    // An amplitude table has levels and no cycles in time: its loss is drawn over amplitude.
+    if curves.time.is_empty() {
+        return Ok(None);
+    }
     let column = |column: usize| -> Vec<(f64, f64)> {
         let cycles = curves.cycles.iter().enumerate();
         let points: Vec<_> = cycles

@@ -2,10 +2,12 @@
 
 mod axis;
 mod canvas;
+mod confusion;
 mod cycles;
 mod decimate;
 mod energy;
 mod evidence;
+mod levels;
 mod loops;
 mod palette;
 mod residual;
@@ -15,6 +17,7 @@ mod residual_time;
 use super::ReportError;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::RecordCurves;
+use canvas::Area;
 
 /// Points of one curve at most; extremes are kept.
 const MOST_POINTS: usize = 1500;
@@ -57,6 +60,22 @@ pub(super) fn of_record(
 /// [`ReportError::Plot`] where the drawing library fails.
 pub(super) fn evidence(findings: &Findings) -> Result<Option<Figure>, ReportError> {
     evidence::draw(findings)
+}
+
+/// The map of what is mistaken for what; `None` where it was not computed.
+///
+/// # Errors
+/// [`ReportError::Plot`] where the drawing library fails.
+pub(super) fn map(findings: &Findings) -> Result<Option<Figure>, ReportError> {
+    confusion::draw(findings)
+}
+
+/// Loss and stiffness over amplitude; none where no level was measured.
+///
+/// # Errors
+/// [`ReportError::Plot`] where the drawing library fails.
+pub(super) fn levels(findings: &Findings) -> Result<Vec<Figure>, ReportError> {
+    levels::draw(findings)
 }
 
 /// Whether the extended joint differs from the baseline, so that it is worth a curve.

@@ -1,0 +1,105 @@
+//! Rows of the dictionary along a pass, with what each carries on to later ones.
+
+use super::march::{March, Step};
+
+/// The rows of the last two samples.
+#[derive(Debug, Clone, Default)]
+pub struct Rows {
+    before: [Vec<f64>; 2],
+}
+
+impl Rows {
+    /// Row at the last accepted sample, `D_i = share P_i + Σ_k carried_k D_{i−k}` with P the operators'
+    /// outputs: d judged / d coefficient, but for what a moved input does to the operators' memory.
+    /// Checked against differences of whole passes below.
+    pub fn next(&mut self, march: &March, step: Step, row: &mut [f64]) {
+        march.row(step, row);
+        if !march.carries() {
+            return;
+        }
+        for (before, share) in self.before.iter().zip(step.carried) {
+            for (value, earlier) in row.iter_mut().zip(before) {
+                *value += share * earlier;
+            }
+        }
+        self.before.swap(0, 1);
+        self.before[0].clear();
+        self.before[0].extend_from_slice(row);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::{Form, Problem};
+    use crate::joint::effect::{Acting, Effect, Place, Response};
+    use crate::joint::parameters::Parameter;
+    use crate::record::Record;
+
+    struct Dashpot;
+
+    impl Effect for Dashpot {
+        fn name(&self) -> &'static str {
+            "dashpot"
+        }
+        fn place(&self) -> Place {
+            Place::BesideJoint
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn beside_joint(&self, values: &[f64], _displacement: f64, velocity: f64) -> Response {
+            Response {
+                value: values[0] * velocity,
+                slope: 0.0,
+                damping: values[0],
+            }
+        }
+    }
+
+    /// With a dashpot whose force is a third of the joint's, sampled four hundred times a cycle, the
+    /// rows are the derivatives of the displacement; without what is carried on they are off by a
+    /// multiple of themselves.
+    #[test]
+    fn rows_beside_a_dashpot_are_derivatives_of_the_pass() {
+        let time: Vec<f64> = (0..1200).map(|i| 0.0025 * f64::from(i)).collect();
+        let force: Vec<f64> = time.iter().map(|t| 100.0 * (6.283 * t).sin()).collect();
+        let record = Record {
+            name: "sine".into(),
+            displacement: vec![0.0; time.len()],
+            time: Some(time),
+            force,
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Play, &[record]);
+        let columns = problem.operators.columns();
+        // Elastic but for a little slip, so that the operators' memory hardly takes part.
+        let mut coefficients = vec![0.0; columns];
+        (coefficients[0], coefficients[5], coefficients[20]) = (1e-8, 1e-10, 1e-10);
+        let effects = [Acting {
+            effect: &Dashpot,
+            values: vec![5e6],
+        }];
+        let at = problem.predict(&coefficients, &effects);
+        for column in [0, 5, 20] {
+            let change = 1e-4 * coefficients[column];
+            let mut moved = coefficients.clone();
+            moved[column] += change;
+            let other = problem.predict(&moved, &effects);
+            let mut rows = Rows::default();
+            let mut row = vec![0.0; columns];
+            let (mut wrong, mut size, mut bare) = (0.0_f64, 0.0_f64, 0.0_f64);
+            problem.pass(0, &coefficients, &effects, |i, march, step| {
+                march.row(step, &mut row);
+                let at_once = row[column];
+                rows.next(march, step, &mut row);
+                let difference = (other[0].judged[i] - at[0].judged[i]) / change;
+                wrong = wrong.max((row[column] - difference).abs());
+                bare = bare.max((at_once - difference).abs());
+                size = size.max(difference.abs());
+            });
+            assert!(wrong < 0.02 * size, "column {column}: {wrong} of {size}");
+            assert!(bare > 0.5 * size, "column {column}: {bare} of {size}");
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! What was measured and predicted level by level and record by record, as values for the page.
+
+use minijinja::context;
+use minijinja::value::Value;
+
+use super::quantity::{number, percent, quantity};
+use crate::diagnose::Findings;
+use crate::diagnose::findings::Errors;
+use crate::diagnose::levels::Compared;
+
+/// Levels in the table at most; diagnosis.json has all.
+const MOST_LEVELS: usize = 60;
+
+/// `12 %` with its interval in brackets, where there is one.
+pub(super) fn share(value: f64, interval: Option<(f64, f64)>) -> String {
+    match interval {
+        Some((lower, upper)) => format!(
+            "{} ({} … {})",
+            percent(value),
+            number(100.0 * lower, 2),
+            number(100.0 * upper, 2)
+        ),
+        None => percent(value),
+    }
+}
+
+/// Errors of one model, each with its interval.
+pub(super) fn errors(label: &str, errors: &Errors, unit: &str) -> Value {
+    let held_out = errors.held_out_interval.map_or_else(String::new, |bounds| {
+        format!(
+            "{} … {}",
+            quantity(bounds.0, unit),
+            quantity(bounds.1, unit)
+        )
+    });
+    context! {
+        label,
+        train => quantity(errors.train_rms, unit),
+        held_out => quantity(errors.held_out_rms, unit),
+        held_out_interval => held_out,
+        energy => errors.dissipation_error.map(|e| share(e, errors.dissipation_interval)),
+        stiffness => errors.stiffness_error.map(|e| share(e, errors.stiffness_interval)),
+    }
+}
+
+/// Loss and stiffness per level.
+pub(super) fn levels(findings: &Findings) -> Vec<Value> {
+    let quantity_of = |compared: &Option<Compared>| {
+        compared.as_ref().map(|c| {
+            context! {
+                measured => quantity(c.measured, &c.unit),
+                before => share(c.before, c.before_interval),
+                after => share(c.after, c.after_interval),
+            }
+        })
+    };
+    let rows = findings.levels.iter().take(MOST_LEVELS);
+    rows.map(|level| {
+        let about = match level.mean.abs() > 0.02 * level.amplitude {
+            true => format!(" about {}", quantity(level.mean, &level.unit)),
+            false => String::new(),
+        };
+        context! {
+            record => level.record,
+            amplitude => quantity(level.amplitude, &level.unit) + &about,
+            rate => level.rate.map_or("–".to_owned(), |rate| quantity(rate, "Hz")),
+            cycles => level.cycles,
+            held_out => level.held_out,
+            energy => quantity_of(&level.energy),
+            stiffness => quantity_of(&level.stiffness),
+        }
+    })
+    .collect()
+}
+
+/// Count of levels that the table leaves out.
+pub(super) fn levels_left(findings: &Findings) -> usize {
+    findings.levels.len().saturating_sub(MOST_LEVELS)
+}
+
+/// Records held out whole.
+pub(super) fn left_out(findings: &Findings) -> Vec<Value> {
+    let rows = findings.left_out.iter();
+    rows.map(|record| {
+        let interval = record.interval.map_or_else(String::new, |(lower, upper)| {
+            format!("{} … {}", number(lower, 3), number(upper, 3))
+        });
+        context! {
+            record => record.record,
+            before => quantity(record.before, &findings.unit),
+            after => quantity(record.after, &findings.unit),
+            ratio => number(record.ratio, 3),
+            interval,
+        }
+    })
+    .collect()
+}

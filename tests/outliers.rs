@@ -1,0 +1,33 @@
+//! Samples that stand alone are found; noise, kinks and smooth channels are left as they are.
+
+use iwan::record::outliers::{Neighbours, outliers};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Nearly normal noise of unit variance: the sum of twelve uniform numbers.
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
+}
+
+#[test]
+fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for neighbours in [Neighbours::Level, Neighbours::Line] {
+        let mut channel: Vec<f64> = (0..1_000_000).map(|_| normal(&mut random)).collect();
+        assert_eq!(outliers(&channel, neighbours), Vec::new());
+        channel[777] += 25.0;
+        channel[778] += 20.0;
+        let found: Vec<usize> = outliers(&channel, neighbours).iter().map(|o| o.0).collect();
+        assert_eq!(found, [777, 778]);
+    }
+    let triangle: Vec<f64> = (0..4000)
+        .map(|i| ((i % 200) as f64 - 100.0).abs() + 0.01 * normal(&mut random))
+        .collect();
+    assert_eq!(outliers(&triangle, Neighbours::Line), Vec::new());
+    let mut sine: Vec<f64> = (0..4000).map(|i| (0.06 * i as f64).sin()).collect();
+    assert_eq!(outliers(&sine, Neighbours::Line), Vec::new());
+    sine[1234] += 0.5;
+    let found = outliers(&sine, Neighbours::Line);
+    assert_eq!(found.len(), 1);
+    assert!((found[0].1 - (0.06_f64 * 1234.0).sin()).abs() < 0.1);
+}
