@@ -63,7 +63,10 @@ mod tests {
     #[test]
     fn rows_beside_a_dashpot_are_derivatives_of_the_pass() {
         let time: Vec<f64> = (0..1200).map(|i| 0.0025 * f64::from(i)).collect();
-        let force: Vec<f64> = time.iter().map(|t| 100.0 * (6.283 * t).sin()).collect();
+        let force: Vec<f64> = time
+            .iter()
+            .map(|t| 100.0 * (std::f64::consts::TAU * t).sin())
+            .collect();
         let record = Record {
             name: "sine".into(),
             displacement: vec![0.0; time.len()],
