@@ -228,12 +228,6 @@ fn refine(
             let trial_effects = moved(&effects, &slopes, &solution[first..]);
             let trial = problem.predict(&solution[..columns], &trial_effects);
             let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-            if std::env::var("TRACE").is_ok() {
-                eprintln!(
-                    "round {round} damping {damping:.0e} misfit {misfit:.1} trial {trial_misfit:.1} {:?}",
-                    trial_effects.iter().map(|a| &a.values).collect::<Vec<_>>()
-                );
-            }
             if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
             {
                 let fall = misfit - trial_misfit;
