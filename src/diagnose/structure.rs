@@ -12,6 +12,9 @@ pub struct Structure {
     /// Standard deviations by which the bins' means exceed what noise gives them, none counted for
     /// more than [`LOUDEST`].
     pub significance: f64,
+    /// Correlation of neighbours in what is left within the bins, the largest of any record: noise
+    /// that was whitened has none.
+    pub correlation: f64,
     /// Bins that stand out most: record, first and last sample, deviation over its own error.
     pub places: Vec<Place>,
 }
@@ -41,6 +44,7 @@ const LOUDEST: f64 = 25.0;
 /// within.
 pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
+    let mut correlations: Vec<f64> = Vec::new();
     for (k, prediction) in predictions.iter().enumerate() {
         let (input, judged) = problem.channels(k);
         let record = &problem.records[k];
@@ -50,6 +54,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
             white.push(whiten(record.autoregression, y - p, before).0);
             before = Some(y - p);
         }
+        correlations.push(neighbours(&white));
         for (from, to, phases) in pieces(input) {
             let mut own = vec![Bin::new(k, from, to); phases];
             for (start, end) in cuts(input, from, to) {
@@ -69,10 +74,12 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         .sum();
     let free = (total - bins.len() as f64).max(1.0);
     let variance = within / free;
+    let correlation = correlations.iter().fold(0.0_f64, |most, c| most.max(*c));
     if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
             share: 0.0,
             significance: 0.0,
+            correlation,
             places: Vec::new(),
         };
     }
@@ -81,7 +88,8 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     let excess = between - count;
     let heard: f64 = bins
         .iter()
-        .map(|b| (b.sum * b.sum / b.count / variance).min(LOUDEST))
+        .map(|b| b.sum * b.sum / b.count / variance / alike_noise(correlations[b.record]))
+        .map(|square| square.min(LOUDEST))
         .sum();
     let mut places: Vec<Place> = bins
         .iter()
@@ -97,8 +105,38 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     Structure {
         share: (excess / total).max(0.0),
         significance: (heard - count) / (2.0 * count).sqrt(),
+        correlation,
         places,
     }
+}
+
+/// Lag-one correlation about the means of short stretches, so that slow structure does not pass for
+/// it.
+fn neighbours(white: &[f64]) -> f64 {
+    let (mut square, mut product) = (0.0, 0.0);
+    for stretch in white.chunks_exact(STRETCH) {
+        let mean = stretch.iter().sum::<f64>() / STRETCH as f64;
+        square += stretch.iter().map(|w| (w - mean).powi(2)).sum::<f64>();
+        product += stretch
+            .windows(2)
+            .map(|w| (w[0] - mean) * (w[1] - mean))
+            .sum::<f64>();
+    }
+    match square > 0.0 {
+        // A stretch's own mean takes a share of 1/STRETCH of every product.
+        true => product / square + 1.0 / STRETCH as f64,
+        false => 0.0,
+    }
+}
+
+/// Samples over whose mean neighbours are compared.
+const STRETCH: usize = 32;
+
+/// Variance of a mean of noise whose neighbours are still somewhat alike, over that of independent
+/// samples; no more than twice, for what is more alike than that is no noise.
+fn alike_noise(correlation: f64) -> f64 {
+    let left = correlation.clamp(0.0, 1.0 / 3.0);
+    (1.0 + left) / (1.0 - left)
 }
 
 #[derive(Debug, Clone)]
