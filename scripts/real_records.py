@@ -257,7 +257,7 @@ def beam(iwan, out):
         if found["status"] == 0:
             text += "".join(f"- {note}\n" for note in found["notes"]) + "\n"
             text += "".join(f"- {place}\n" for place in found["unexplained"]["where"]) + "\n"
-        text += figure(found, f"real-{name}", file.stem, "Energy per cycle") + "\n"
+        text += figure(found, f"real-{name}", file.stem, "Loss over amplitude") + "\n"
     write("real-beam-table", text)
 
 
