@@ -101,12 +101,16 @@ def table(found):
 
 
 def figure(found, name, record, title):
-    """Takes the drawing of that title of that record out of the report."""
+    """Takes the drawing of that title of that record, or else of all records, out of the report."""
     if found["status"] != 0:
         return ""
     page = (found["folder"] / "report.html").read_text()
     parts = page.split(f"<h2>Record {record}</h2>")
-    drawings = re.findall(r"<b>([^<]*)</b>.*?(<svg.*?</svg>)", parts[-1], re.DOTALL)
+    drawings = [
+        drawing
+        for part in (parts[-1], page)
+        for drawing in re.findall(r"<b>([^<]*)</b>(?:(?!<b>).)*?(<svg.*?</svg>)", part, re.DOTALL)
+    ]
     for caption, drawing in drawings:
         if html.unescape(caption) == title:
             path = ROOT / "docs" / "figures" / f"{name}.svg"
