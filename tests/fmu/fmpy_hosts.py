@@ -14,6 +14,11 @@ STEP = 1e-3
 FOLDER = "prüf stand 100% #1 関節"
 
 
+# fmpy changes the folder of the process while it loads a library: two threads at it would leave the
+# process in the folder of either.
+LOADING = threading.Lock()
+
+
 class Host:
     """One instance from an unpacked archive, FMI 2.0."""
 
@@ -31,7 +36,8 @@ class Host:
 
     def start(self) -> FMU2Slave:
         """Loads the library and brings an instance to its first communication point."""
-        unit = FMU2Slave(**self.arguments)
+        with LOADING:
+            unit = FMU2Slave(**self.arguments)
         unit.instantiate()
         unit.setupExperiment(startTime=0.0)
         unit.enterInitializationMode()

@@ -25,8 +25,11 @@ from .scene import Scene
 from .score import judge
 from .scorecard import MARKERS, card
 
-FINDER = """#!{python}
-import json, pathlib, sys
+# The interpreter's own path may hold spaces, which no first line of a script can.
+LAUNCHER = """#!/bin/sh
+exec '{python}' "$0.py" "$@"
+"""
+FINDER = """import json, pathlib, sys
 out = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
 out.mkdir(parents=True)
 (out / "diagnosis.json").write_text(json.dumps({said}))
@@ -249,7 +252,9 @@ class Resuming(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             finder = Path(folder) / "finder"
             said = diagnosis("displacement_drift")
-            finder.write_text(FINDER.format(python=sys.executable, said=said), encoding="utf-8")
+            finder.write_text(LAUNCHER.format(python=sys.executable), encoding="utf-8")
+            script = finder.with_name("finder.py")
+            script.write_text(FINDER.format(said=said), encoding="utf-8")
             finder.chmod(0o755)
             bench = Bench(str(finder), folder, keep=False)
             got = bench(Task(5, 7, ("displacement_drift",), (2.0, 2.0), "outliers"))
