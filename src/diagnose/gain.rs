@@ -16,17 +16,19 @@ pub fn ratio(
     let old = blocks(bench, before);
     let new = blocks(bench, after);
     let blocks: Vec<(f64, f64)> = old.iter().zip(&new).map(|(o, n)| (o.0, n.0)).collect();
-    let of = |blocks: &[(f64, f64)]| {
-        let sum = blocks
-            .iter()
-            .fold((0.0, 0.0), |s, b| (s.0 + b.0, s.1 + b.1));
-        if sum.0 > 0.0 {
-            (sum.1 / sum.0).sqrt()
-        } else {
-            1.0
-        }
-    };
-    (of(&blocks), interval(&blocks, of))
+    (of_squares(&blocks), interval(&blocks, of_squares))
+}
+
+/// rms after over rms before, of squared errors (before, after) per block.
+pub(super) fn of_squares(blocks: &[(f64, f64)]) -> f64 {
+    let sum = blocks
+        .iter()
+        .fold((0.0, 0.0), |s, b| (s.0 + b.0, s.1 + b.1));
+    if sum.0 > 0.0 {
+        (sum.1 / sum.0).sqrt()
+    } else {
+        1.0
+    }
 }
 
 /// Where a channel is cut into blocks: at its cycles and around them, or evenly where it has too few.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::bootstrap::interval;
-use super::gain::edges;
+use super::gain::{edges, of_squares};
 use super::prepare::Bench;
 use crate::identify::{Fit, Prediction, Problem, baseline, refit};
 
@@ -55,26 +55,16 @@ fn one(problem: &Problem, whole: &Fit, k: usize) -> LeftOut {
         }
     };
     let blocks: Vec<(f64, f64)> = before.iter().copied().zip(after.iter().copied()).collect();
-    let ratio = |blocks: &[(f64, f64)]| {
-        let sum = blocks
-            .iter()
-            .fold((0.0, 0.0), |s, b| (s.0 + b.0, s.1 + b.1));
-        if sum.0 > 0.0 {
-            (sum.1 / sum.0).sqrt()
-        } else {
-            1.0
-        }
-    };
     let samples = problem.records[k].time.len().max(1) as f64;
     let rms = |squares: &[f64]| (squares.iter().sum::<f64>() / samples).sqrt();
     LeftOut {
         record: problem.records[k].name.clone(),
         before: rms(&before),
         after: rms(&after),
-        ratio: ratio(&blocks),
+        ratio: of_squares(&blocks),
         interval: match whole.effects.is_empty() {
             true => None,
-            false => interval(&blocks, ratio),
+            false => interval(&blocks, of_squares),
         },
     }
 }

@@ -4,8 +4,8 @@
 
 use super::nonnegative::Normal;
 use super::operators::Form;
-use super::problem::{Prediction, Problem, Weighing};
-use super::rows::Rows;
+use super::problem::{Prediction, Problem};
+use super::rows::each_row;
 use super::series;
 use super::slopes::{Slope, hold, moved, slopes};
 use crate::joint::effect::{Acting, Place};
@@ -24,9 +24,6 @@ pub struct Fit {
     pub series: Option<f64>,
     /// Whitened sum of squares over the weighted samples.
     pub misfit: f64,
-    /// Standard errors of the effects' values in units of the noise, by effect; infinite where the
-    /// data do not bound a value.
-    pub errors: Vec<Vec<f64>>,
 }
 
 impl Fit {
@@ -134,7 +131,6 @@ fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> 
     acting.push(series::acting(compliance));
     let mut fit = refine(problem, coefficients, acting, steps);
     fit.series = fit.effects.pop().map(|spring| spring.values[0]);
-    fit.errors.pop();
     fit
 }
 
@@ -194,10 +190,6 @@ fn refine(
         }
         (effects, predictions, misfit, offsets) = (smaller, trial, trial_misfit, trial_offsets);
     }
-    let mut errors: Vec<Vec<f64>> = effects
-        .iter()
-        .map(|a| vec![f64::INFINITY; a.values.len()])
-        .collect();
     let mut damping = 0.0;
     // A limit that follows what the joint does makes the answer less than linear in the dictionary.
     let implicit = effects.iter().any(|a| a.effect.place() == Place::SlipLimit);
@@ -209,7 +201,6 @@ fn refine(
         let mut bounded = vec![true; normal.size];
         bounded[columns..].iter_mut().for_each(|b| *b = false);
         let solution = normal.solve(&bounded);
-        errors = standard_errors(&normal, &solution, columns, records, &effects, &slopes);
         if round > 0 && misfit - normal.misfit(&solution) < SETTLED * misfit {
             break;
         }
@@ -256,7 +247,6 @@ fn refine(
         effects,
         series: None,
         misfit,
-        errors,
     }
 }
 
@@ -268,33 +258,11 @@ fn normal(
     at: &[Prediction],
     slopes: &[Slope],
 ) -> Normal {
-    let columns = problem.operators.columns();
-    let records = problem.records.len();
-    let size = columns + records + slopes.len();
+    let size = problem.operators.columns() + problem.records.len() + slopes.len();
     let mut normal = Normal::new(size);
-    for k in 0..records {
-        let record = &problem.records[k];
-        let (_, measured) = problem.channels(k);
-        let mut weighing = Weighing::new(record, size + 1);
-        let mut row = vec![0.0; size + 1];
-        let mut rows = Rows::default();
-        problem.pass(k, coefficients, effects, |i, march, step| {
-            rows.next(march, step, &mut row[..columns]);
-            row[columns + k] = 1.0;
-            for (value, slope) in row[columns + records..size].iter_mut().zip(slopes) {
-                *value = slope.values[k][i];
-            }
-            let linear: f64 = row[..columns]
-                .iter()
-                .zip(coefficients)
-                .map(|(x, c)| x * c)
-                .sum();
-            row[size] = measured[i] - at[k].judged[i] + linear;
-            if let Some(white) = weighing.weigh(i, &row) {
-                normal.add(&white[..size], white[size]);
-            }
-        });
-    }
+    each_row(problem, coefficients, effects, at, slopes, |row, target| {
+        normal.add(row, target);
+    });
     normal.mirror();
     normal
 }
@@ -314,30 +282,4 @@ fn projected(
     let mut solution = normal.solve(&bounded);
     solution.truncate(columns);
     solution
-}
-
-fn standard_errors(
-    normal: &Normal,
-    solution: &[f64],
-    columns: usize,
-    records: usize,
-    effects: &[Acting],
-    slopes: &[Slope],
-) -> Vec<Vec<f64>> {
-    let members: Vec<usize> = (0..normal.size)
-        .filter(|&i| i >= columns || solution[i] > 0.0)
-        .collect();
-    let variances = normal.variances(&members);
-    let mut errors: Vec<Vec<f64>> = effects
-        .iter()
-        .map(|a| vec![f64::INFINITY; a.values.len()])
-        .collect();
-    for (k, slope) in slopes.iter().enumerate() {
-        let place = members.iter().position(|&i| i == columns + records + k);
-        if let Some(place) = place {
-            errors[slope.effect][slope.parameter] =
-                variances[place].max(0.0).sqrt() * slope.unit.abs();
-        }
-    }
-    errors
 }

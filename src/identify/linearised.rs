@@ -2,8 +2,8 @@
 //! unknowns owes to the samples scatters.
 
 use super::nonnegative::Normal;
-use super::problem::{Prediction, Prepared, Problem, Weighing};
-use super::rows::Rows;
+use super::problem::{Prediction, Prepared, Problem};
+use super::rows::each_row;
 use super::slopes::{Slope, slopes};
 use crate::joint::effect::Acting;
 
@@ -99,35 +99,19 @@ impl<'a> Linearised<'a> {
 
     /// Every whitened row with its target; the first number counts the weighted samples.
     fn rows(&self, mut each: impl FnMut(usize, &[f64], f64)) {
-        let columns = self.problem.operators.columns();
-        let size = self.normal.size;
-        let first = self.first();
+        let (coefficients, effects) = (self.coefficients, self.effects);
         let mut seen = 0;
-        for (k, record) in self.problem.records.iter().enumerate() {
-            let (_, measured) = self.problem.channels(k);
-            let mut weighing = Weighing::new(record, size + 1);
-            let mut row = vec![0.0; size + 1];
-            let mut rows = Rows::default();
-            let (coefficients, effects) = (self.coefficients, self.effects);
-            self.problem
-                .pass(k, coefficients, effects, |i, march, step| {
-                    rows.next(march, step, &mut row[..columns]);
-                    row[columns + k] = 1.0;
-                    for (value, slope) in row[first..size].iter_mut().zip(&self.slopes) {
-                        *value = slope.values[k][i];
-                    }
-                    let linear: f64 = row[..columns]
-                        .iter()
-                        .zip(self.coefficients)
-                        .map(|(x, c)| x * c)
-                        .sum();
-                    row[size] = measured[i] - self.at[k].judged[i] + linear;
-                    if let Some(white) = weighing.weigh(i, &row) {
-                        each(seen, &white[..size], white[size]);
-                        seen += 1;
-                    }
-                });
-        }
+        each_row(
+            self.problem,
+            coefficients,
+            effects,
+            &self.at,
+            &self.slopes,
+            |row, target| {
+                each(seen, row, target);
+                seen += 1;
+            },
+        );
     }
 
     /// Variance of each combination over that of [`Influence::variance`], at least 1.

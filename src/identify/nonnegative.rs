@@ -252,22 +252,6 @@ impl Normal {
             })
             .collect()
     }
-
-    /// Diagonal of the inverse over the given unknowns: variances in units of the noise variance.
-    pub fn variances(&self, members: &[usize]) -> Vec<f64> {
-        let scale = self.scale();
-        members
-            .iter()
-            .enumerate()
-            .map(|(k, &i)| {
-                let mut unit = self.clone();
-                unit.right = vec![0.0; self.size];
-                unit.right[i] = 1.0;
-                unit.solve_members(members, &scale)
-                    .map_or(f64::INFINITY, |column| column[k])
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! Rows of the dictionary along a pass, with what each carries on to later ones.
 
 use super::march::{March, Step};
+use super::problem::{Prediction, Problem, Weighing};
+use super::slopes::Slope;
+use crate::joint::effect::Acting;
 
 /// The rows of the last two samples.
 #[derive(Debug, Clone, Default)]
@@ -28,11 +31,48 @@ impl Rows {
     }
 }
 
+/// Every whitened row of the linearised model with its target: coefficients, an offset per record,
+/// moves of the effects' values.
+pub(super) fn each_row(
+    problem: &Problem,
+    coefficients: &[f64],
+    effects: &[Acting],
+    at: &[Prediction],
+    slopes: &[Slope],
+    mut each: impl FnMut(&[f64], f64),
+) {
+    let columns = problem.operators.columns();
+    let first = columns + problem.records.len();
+    let size = first + slopes.len();
+    for (k, record) in problem.records.iter().enumerate() {
+        let (_, measured) = problem.channels(k);
+        let mut weighing = Weighing::new(record, size + 1);
+        let mut row = vec![0.0; size + 1];
+        let mut rows = Rows::default();
+        problem.pass(k, coefficients, effects, |i, march, step| {
+            rows.next(march, step, &mut row[..columns]);
+            row[columns + k] = 1.0;
+            for (value, slope) in row[first..size].iter_mut().zip(slopes) {
+                *value = slope.values[k][i];
+            }
+            let linear: f64 = row[..columns]
+                .iter()
+                .zip(coefficients)
+                .map(|(x, c)| x * c)
+                .sum();
+            row[size] = measured[i] - at[k].judged[i] + linear;
+            if let Some(white) = weighing.weigh(i, &row) {
+                each(&white[..size], white[size]);
+            }
+        });
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Form, Problem};
-    use crate::joint::effect::{Acting, Effect, Place, Response};
+    use crate::identify::Form;
+    use crate::joint::effect::{Effect, Place, Response};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
 

@@ -291,7 +291,6 @@ pub fn refitted(
         offsets: vec![0.0; problem.records.len()],
         effects: Vec::new(),
         misfit: f64::INFINITY,
-        errors: Vec::new(),
         ..whole.clone()
     };
     refit(&simulated, &start, with(rival)).misfit
