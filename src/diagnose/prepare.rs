@@ -167,6 +167,7 @@ impl Bench {
 /// Strikes out what stands alone in a channel: a spike of the input would send the model's memory
 /// elsewhere for good.
 fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
+    let form = problem.operators.form;
     for (record, struck) in problem.records.iter_mut().zip(struck) {
         for channel in [&mut record.force, &mut record.displacement] {
             for (i, instead) in outliers(channel, Neighbours::Line) {
@@ -175,6 +176,7 @@ fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
                 record.weight[i] = 0.0;
             }
         }
+        record.look_between(form);
     }
 }
 

@@ -237,6 +237,11 @@ impl<'a> March<'a> {
         }
     }
 
+    /// Forgets the rate so far: the input has a kink here, and the next difference starts behind it.
+    pub fn kink(&mut self) {
+        self.earlier = None;
+    }
+
     fn update_limits(&mut self) {
         if !self.has[index(Place::SlipLimit)] {
             return;

@@ -4,6 +4,7 @@ use super::march::{March, Step, added};
 use super::operators::{Form, Operators};
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
+use crate::record::peaks::{Between, between};
 
 /// One record as the fit sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,25 +23,39 @@ pub struct Prepared {
     pub weight: Vec<f64>,
     /// Correlation of neighbouring noise samples, removed from rows before they are summed.
     pub autoregression: f64,
+    /// What the input did between samples; no samples of their own, but the joint was there.
+    pub between: Between,
 }
 
 impl Prepared {
     /// Every sample with unit weight, white.
-    pub fn new(record: &Record) -> Prepared {
+    pub fn new(record: &Record, form: Form) -> Prepared {
         let time = record.clock();
         let mut steps = vec![0.0; time.len()];
         for i in 1..time.len() {
             steps[i] = time[i] - time[i - 1];
         }
-        Prepared {
+        let mut prepared = Prepared {
             name: record.name.clone(),
+            between: Between::default(),
             steps,
             force: record.force.clone(),
             displacement: record.displacement.clone(),
             weight: vec![1.0; time.len()],
             autoregression: 0.0,
             time,
-        }
+        };
+        prepared.look_between(form);
+        prepared
+    }
+
+    /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
+    pub fn look_between(&mut self, form: Form) {
+        let input = match form {
+            Form::Play => &self.force,
+            Form::Stop => &self.displacement,
+        };
+        self.between = between(&self.time, input);
     }
 }
 
@@ -52,6 +67,9 @@ pub struct Problem {
     /// The records.
     pub records: Vec<Prepared>,
 }
+
+/// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
+const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
 
 /// Prediction of one record by one model, without the record's offset.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -65,7 +83,7 @@ pub struct Prediction {
 impl Problem {
     /// Prepares records; the grid covers the largest input of any of them.
     pub fn new(form: Form, records: &[Record]) -> Problem {
-        let prepared: Vec<Prepared> = records.iter().map(Prepared::new).collect();
+        let prepared: Vec<Prepared> = records.iter().map(|r| Prepared::new(r, form)).collect();
         let range = prepared
             .iter()
             .flat_map(|p| match form {
@@ -88,7 +106,8 @@ impl Problem {
         }
     }
 
-    /// Marches through record `k`; `each` sees every accepted sample of the final pass.
+    /// Marches through record `k`; `each` sees every accepted step of the final pass, `None` at the
+    /// peaks between samples.
     ///
     /// An effect on the input's own channel needs the truth to be corrected, so such a pass is
     /// repeated from the truth of the one before it; the correction is small against the input and
@@ -98,7 +117,7 @@ impl Problem {
         k: usize,
         coefficients: &[f64],
         effects: &[Acting],
-        mut each: impl FnMut(usize, &March, Step),
+        mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> Prediction {
         let record = &self.records[k];
         let (measured, _) = self.channels(k);
@@ -108,6 +127,7 @@ impl Problem {
         };
         let corrected = effects.iter().any(|a| a.effect.place() == input_place);
         let mut input = measured.to_vec();
+        let mut peaks = record.between.peaks.clone();
         let rounds = if corrected { 3 } else { 1 };
         let mut truth = Trajectory {
             time: record.time.clone(),
@@ -116,19 +136,55 @@ impl Problem {
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects);
+            let mut between = peaks.iter().peekable();
+            let mut kinks = record.between.kinks.iter().peekable();
+            let mut since_kink = usize::MAX;
+            let mut from = (record.time[0], input[0]);
             for (i, &driven) in input.iter().enumerate() {
-                let step = march.step(record.time[i], record.steps[i], driven);
+                let to = (record.time[i], driven);
+                let mut left = record.steps[i];
+                since_kink = since_kink.saturating_add(1);
+                if let Some(peak) = between.next_if(|peak| peak.before == i) {
+                    from = (to.0 - peak.ahead, peak.value);
+                    left = peak.ahead;
+                    let step = march.step(from.0, record.steps[i] - left, from.1);
+                    if round + 1 == rounds {
+                        each(None, &march, step);
+                    }
+                }
+                if kinks.next_if(|&&kink| kink == i).is_some() {
+                    march.kink();
+                    since_kink = 0;
+                }
+                let parts = match march.carries() {
+                    true => BEHIND_KINK.get(since_kink).copied().unwrap_or(1),
+                    false => 1,
+                };
+                for part in 1..parts {
+                    let share = f64::from(part) / f64::from(parts);
+                    let at = |a: f64, b: f64| a + share * (b - a);
+                    let length = left / f64::from(parts);
+                    let step = march.step(at(from.0, to.0), length, at(from.1, to.1));
+                    if round + 1 == rounds {
+                        each(None, &march, step);
+                    }
+                }
+                let step = march.step(to.0, left / f64::from(parts), driven);
                 truth.force[i] = step.force;
                 truth.displacement[i] = step.displacement;
                 if round + 1 == rounds {
-                    each(i, &march, step);
+                    each(Some(i), &march, step);
                 }
+                from = to;
             }
             if round + 1 < rounds
                 && let Some(added) = added(effects, input_place, &truth)
             {
                 for ((x, m), a) in input.iter_mut().zip(measured).zip(&added) {
                     *x = m - a;
+                }
+                for (peak, m) in peaks.iter_mut().zip(&record.between.peaks) {
+                    peak.value = m.value - 0.5 * (added[m.before - 1] + added[m.before]);
                 }
             }
         }

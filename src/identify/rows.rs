@@ -51,6 +51,7 @@ pub(super) fn each_row(
         let mut rows = Rows::default();
         problem.pass(k, coefficients, effects, |i, march, step| {
             rows.next(march, step, &mut row[..columns]);
+            let Some(i) = i else { return };
             row[columns + k] = 1.0;
             for (value, slope) in row[first..size].iter_mut().zip(slopes) {
                 *value = slope.values[k][i];
@@ -136,6 +137,7 @@ mod tests {
                 march.row(step, &mut row);
                 let at_once = row[column];
                 rows.next(march, step, &mut row);
+                let Some(i) = i else { return };
                 let difference = (other[0].judged[i] - at[0].judged[i]) / change;
                 wrong = wrong.max((row[column] - difference).abs());
                 bare = bare.max((at_once - difference).abs());

@@ -60,6 +60,7 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
         let mut rows = Rows::default();
         problem.pass(k, &current.coefficients, &acting, |i, march, step| {
             rows.next(march, step, &mut row[..columns]);
+            let Some(i) = i else { return };
             row[columns + k] = 1.0;
             for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
                 *value = slope.values[k][i];

@@ -3,6 +3,7 @@
 pub mod cycles;
 pub mod noise;
 pub mod outliers;
+pub mod peaks;
 mod spectrum;
 pub mod split;
 pub mod thinned;

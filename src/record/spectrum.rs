@@ -11,12 +11,26 @@ const FIRST: usize = SEGMENT / 16;
 /// Fewest segments whose median tells a spectrum.
 const FEWEST: usize = 7;
 
+/// Noise that the fast part of a spectrum tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FastNoise {
+    /// Standard deviation, in the residual's unit.
+    pub deviation: f64,
+    /// Correlation of neighbours.
+    pub autoregression: f64,
+    /// Largest standard deviation that the fast part allows: slow noise hardly shows there.
+    pub most: f64,
+}
+
+/// Twice the fall of the logarithmic likelihood within which a correlation is possible: one standard
+/// deviation, doubled for a median that tells half as much as a mean.
+const POSSIBLE: f64 = 2.0;
+
 /// First-order autoregressive noise `S(ω) = s²/(1 − 2a cos ω + a²)` that fits the fast part of the
-/// spectrum best (Whittle's likelihood): standard deviation and correlation of neighbours; `None`
-/// where the residual is too short.
+/// spectrum best (Whittle's likelihood); `None` where the residual is too short.
 ///
 /// The periodogram is a median over segments, so that kinks and bursts of structure count little.
-pub fn fast_noise(residual: &[f64]) -> Option<(f64, f64)> {
+pub fn fast_noise(residual: &[f64]) -> Option<FastNoise> {
     let spectrum = spectrum(residual)?;
     let band = FIRST..SEGMENT / 2;
     let shape = |a: f64, bin: usize| {
@@ -33,8 +47,18 @@ pub fn fast_noise(residual: &[f64]) -> Option<(f64, f64)> {
     let best = (0..100)
         .map(|step| 0.01 * f64::from(step))
         .min_by(|&x, &y| against(x).total_cmp(&against(y)))?;
-    let variance = innovation(best) / (1.0 - best * best);
-    variance.is_finite().then(|| (variance.sqrt(), best))
+    let samples = band.len() as f64 * residual.len() as f64 / SEGMENT as f64;
+    let deviation = |a: f64| (innovation(a) / (1.0 - a * a)).sqrt();
+    let most = (0..100)
+        .map(|step| 0.01 * f64::from(step))
+        .filter(|&a| 2.0 * samples * (against(a) - against(best)) <= POSSIBLE)
+        .map(deviation)
+        .fold(deviation(best), f64::max);
+    deviation(best).is_finite().then(|| FastNoise {
+        deviation: deviation(best),
+        autoregression: best,
+        most,
+    })
 }
 
 /// Median periodogram over overlapping segments under a Hann window, scaled so that white noise of
@@ -108,9 +132,15 @@ mod tests {
     fn noise_is_told_with_and_without_a_slow_wave_above_it() {
         for correlation in [0.0, 0.5, 0.8] {
             for wave in [0.0, 5.0] {
-                let (deviation, found) = fast_noise(&record(correlation, wave)).unwrap();
-                assert!((found - correlation).abs() < 0.07, "{correlation}: {found}");
-                assert!((deviation - 1.0).abs() < 0.15, "{correlation}: {deviation}");
+                let noise = fast_noise(&record(correlation, wave)).unwrap();
+                let off = (noise.autoregression - correlation).abs();
+                assert!(off < 0.07, "{correlation}: {noise:?}");
+                let off = (noise.deviation - 1.0).abs();
+                assert!(off < 0.15, "{correlation}: {noise:?}");
+                assert!(
+                    (0.98..2.0).contains(&noise.most),
+                    "{correlation}: {noise:?}"
+                );
             }
         }
         assert_eq!(fast_noise(&[1.0; 100]), None);

@@ -12,6 +12,7 @@ use crate::diagnose::search::NEARLY;
 use crate::diagnose::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Form, Prepared, Problem, refit};
 use crate::joint::effect::Acting;
+use crate::record::Record;
 
 /// A question that an experiment shall settle: is it this, or the rival?
 #[derive(Debug, Clone)]
@@ -248,18 +249,19 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> Problem {
         Form::Play => (values, vec![0.0; count]),
         Form::Stop => (vec![0.0; count], values),
     };
+    let played = Record {
+        name: "next_experiment".to_string(),
+        time: Some(time),
+        force,
+        displacement,
+        ..Record::default()
+    };
     Problem {
         operators: problem.operators.clone(),
         records: vec![Prepared {
-            name: "next_experiment".to_string(),
-            steps: std::iter::once(0.0)
-                .chain(std::iter::repeat_n(rig.step, count - 1))
-                .collect(),
-            time,
-            force,
-            displacement,
             weight: vec![weight; count],
             autoregression,
+            ..Prepared::new(&played, problem.operators.form)
         }],
     }
 }

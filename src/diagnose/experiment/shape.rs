@@ -170,6 +170,7 @@ pub fn products(problem: &Problem, coefficients: &[f64], extra: &[Vec<Vec<f64>>]
             let mut rows = Rows::default();
             problem.pass(k, coefficients, &[], |i, march, step| {
                 rows.next(march, step, &mut row[..columns]);
+                let Some(i) = i else { return };
                 let values = row[columns..kept].iter_mut().zip(extra);
                 values.for_each(|(value, column)| *value = column[k][i]);
                 row[kept + k] = 1.0;

@@ -1,0 +1,196 @@
+//! What an input does between its samples: peaks that fall there, kinks where its rate jumps.
+
+use super::cycles::turning_points;
+
+/// A point of the input between two samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// The first sample behind it.
+    pub before: usize,
+    /// Time from here to that sample, in the clock's unit: clocks may be set.
+    pub ahead: f64,
+    /// Value, in the channel's unit.
+    pub value: f64,
+}
+
+/// What the samples of an input do not show.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Between {
+    /// Peaks and kinks between samples, at most one per interval, in order.
+    pub peaks: Vec<Peak>,
+    /// Samples up to which a difference would reach across a jump of the rate, in order.
+    pub kinks: Vec<usize>,
+}
+
+/// Wiggles below this share of the channel's range are no turning points.
+const BAND: f64 = 0.005;
+
+/// Share of the bends next to a kink, over those at it, below which two straight stretches meet.
+const CORNER: f64 = 0.1;
+
+/// Median bends of a channel that a kink exceeds.
+const SHARP: f64 = 10.0;
+
+/// Bends of the stretches by which their lines may go astray where they meet.
+const ASTRAY: f64 = 3.0;
+
+/// Share of a step within which a peak counts as sampled.
+const SAMPLED: f64 = 1e-3;
+
+/// Finds the kinks where straight stretches meet (a triangle's tip, the end of a ramp), and the peaks of
+/// smooth turns: the vertex of the parabola through the three samples about a turning point.
+///
+/// A joint remembers how far it was driven: a peak missed by 10⁻³ of it leaves its whole way back
+/// wrong by as much.
+pub fn between(time: &[f64], channel: &[f64]) -> Between {
+    let mut found = Between::default();
+    if channel.len() < 8 {
+        return found;
+    }
+    let place = |left: usize, within: f64, value: f64| Peak {
+        before: left + 1,
+        ahead: (1.0 - within) * (time[left + 1] - time[left]),
+        value,
+    };
+    let mut cornered = vec![false; channel.len()];
+    for left in corners(channel) {
+        cornered[left] = true;
+        cornered[left + 1] = true;
+        match meeting(channel, left) {
+            Meeting::Between(within, value) => {
+                found.peaks.push(place(left, within, value));
+                found.kinks.push(left + 1);
+            }
+            Meeting::Sampled(at) => found.kinks.push(at + 1),
+            Meeting::Nowhere => found.kinks.extend([left + 1, left + 2]),
+        }
+    }
+    for turn in turning_points(channel, BAND) {
+        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] {
+            continue;
+        }
+        let rise = 0.5 * (channel[turn + 1] - channel[turn - 1]);
+        let at = -rise / bend(channel, turn);
+        let left = if at < 0.0 { turn - 1 } else { turn };
+        if at.abs() > SAMPLED && at.abs() < 1.0 {
+            let value = channel[turn] + 0.5 * rise * at;
+            found.peaks.push(place(left, at.rem_euclid(1.0), value));
+        }
+    }
+    found.peaks.sort_by_key(|peak| peak.before);
+    found.peaks.dedup_by_key(|peak| peak.before);
+    found.kinks.sort_unstable();
+    found.kinks.dedup();
+    found
+}
+
+fn bend(channel: &[f64], i: usize) -> f64 {
+    channel[i - 1] - 2.0 * channel[i] + channel[i + 1]
+}
+
+/// First samples of the intervals in or next to which two straight stretches meet.
+fn corners(channel: &[f64]) -> Vec<usize> {
+    let bend = |i: usize| bend(channel, i);
+    let mut all: Vec<f64> = (1..channel.len() - 1).map(|i| bend(i).abs()).collect();
+    all.sort_by(f64::total_cmp);
+    let usual = all[all.len() / 2];
+    let both = |i: usize| (bend(i) + bend(i + 1)).abs();
+    (2..channel.len() - 3)
+        .filter(|&i| both(i) > SHARP * usual && both(i) >= both(i - 1).max(both(i + 1)))
+        .filter(|&i| bend(i - 1).abs() + bend(i + 2).abs() < CORNER * both(i))
+        .collect()
+}
+
+/// Where the straight stretches about an interval meet.
+enum Meeting {
+    /// Inside the interval: share of it, and the value there.
+    Between(f64, f64),
+    /// At a sample.
+    Sampled(usize),
+    /// Neither: more happens here than one kink.
+    Nowhere,
+}
+
+fn meeting(channel: &[f64], left: usize) -> Meeting {
+    let right = left + 1;
+    let (rise, fall) = (
+        channel[left] - channel[left - 1],
+        channel[right + 1] - channel[right],
+    );
+    let within = (channel[right] - fall - channel[left]) / (rise - fall);
+    let value = channel[left] + rise * within;
+    // Stretches that bend, or noise, carry their lines past a kink that was sampled.
+    let astray = ASTRAY
+        * bend(channel, left - 1)
+            .abs()
+            .max(bend(channel, right + 1).abs());
+    let nearest = if within < 0.5 { left } else { right };
+    if (within - (nearest - left) as f64).abs() * (rise - fall).abs() <= astray {
+        Meeting::Sampled(nearest)
+    } else if within > SAMPLED && within < 1.0 - SAMPLED {
+        Meeting::Between(within, value)
+    } else {
+        Meeting::Nowhere
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(wave: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
+        let time: Vec<f64> = (0..600).map(|i| 0.0167 * f64::from(i)).collect();
+        let channel = time.iter().map(|t| wave(*t)).collect();
+        (time, channel)
+    }
+
+    #[test]
+    fn tips_of_sines_and_triangles_are_found_between_samples() {
+        let sine = |t: f64| (std::f64::consts::TAU * t).sin();
+        let triangle = |t: f64| 4.0 * (t - 0.25 - (t - 0.25).round()).abs() - 1.0;
+        for (wave, off, kinks) in [
+            (&sine as &dyn Fn(f64) -> f64, 3e-6, 0),
+            (&triangle, 1e-12, 20),
+        ] {
+            let (time, channel) = sampled(wave);
+            let Between {
+                peaks,
+                kinks: found,
+            } = between(&time, &channel);
+            assert!((17..=21).contains(&peaks.len()), "{}", peaks.len());
+            assert!(found.len().abs_diff(kinks) <= 2, "{}", found.len());
+            for peak in &peaks {
+                assert!((peak.value.abs() - 1.0).abs() < off, "{peak:?}");
+                assert!(peak.ahead > 0.0 && peak.ahead < 0.0167, "{peak:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_ramp_is_a_kink_wherever_it_lies() {
+        for end in [300.0, 300.3] {
+            let time: Vec<f64> = (0..600).map(f64::from).collect();
+            let channel: Vec<f64> = time.iter().map(|t| t.min(end)).collect();
+            let Between { peaks, kinks } = between(&time, &channel);
+            assert_eq!(kinks, [301]);
+            match end == 300.0 {
+                true => assert_eq!(peaks, []),
+                false => assert!((peaks[0].value - end).abs() < 1e-9, "{peaks:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_sampled_tip_has_no_peak_and_a_clipped_sine_none_above_its_clip() {
+        let clipped = |t: f64| (std::f64::consts::TAU * t).sin().clamp(-0.8, 0.8);
+        let (time, channel) = sampled(clipped);
+        for peak in between(&time, &channel).peaks {
+            assert!(peak.value.abs() <= 0.8 + 0.02, "{peak:?}");
+        }
+        let time: Vec<f64> = (0..200).map(f64::from).collect();
+        let tips: Vec<f64> = time.iter().map(|t| (t % 20.0 - 10.0).abs()).collect();
+        let Between { peaks, kinks } = between(&time, &tips);
+        assert_eq!(peaks, []);
+        assert!(kinks.iter().all(|kink| kink % 10 == 1) && kinks.len() > 15);
+    }
+}
