@@ -135,20 +135,22 @@ fn assemble(
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let timed = records.iter().all(|r| r.time.is_some());
+    let left = match structure_before.share > 0.0 {
+        true => (structure_after.share / structure_before.share).min(1.0),
+        false => 0.0,
+    };
     let verdict = verdict::verdict(
         named.then(|| gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0),
         &structure_before,
         &structure_after,
-        bench.noise_is_repeated(),
+        bench.most_left(),
         chi,
+        probability::unlisted(&found, left),
     );
     let causes = named_causes(bench, &found, &whole);
     let left = match verdict {
         Verdict::Clean => 0.0,
-        _ if structure_before.share > 0.0 => {
-            (structure_after.share / structure_before.share).min(1.0)
-        }
-        _ => 0.0,
+        _ => left,
     };
     let candidates = candidates(bench, &found, &before, left);
     let joint = exported::joint(&bench.whole.operators, &whole)?;

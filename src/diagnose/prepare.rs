@@ -25,6 +25,12 @@ pub struct Bench {
     pub scale: Scale,
 }
 
+/// Share of the noise's variance that a law only nearly right may leave: a third of the noise in rms.
+const NEARLY_RIGHT: f64 = 0.1;
+
+/// Standard deviations that the noise's variance may lie off.
+const SCATTER: f64 = 3.0;
+
 /// Ratio of largest to smallest secant compliance beyond which the force-driven form is
 /// ill-conditioned (compliance grows without bound at full slip).
 const DEEP_SLIP: f64 = 8.0;
@@ -119,6 +125,23 @@ impl Bench {
     /// True where repeated cycles gave the noise of every record.
     pub fn noise_is_repeated(&self) -> bool {
         self.noise.iter().all(|n| n.repeated)
+    }
+
+    /// Largest mean whitened square that a model without error may leave, where repeated cycles gave
+    /// the noise: one, what the estimate of the noise's variance scatters by, and what laws that are
+    /// only nearly right may leave.
+    ///
+    /// `n` samples of correlation `a` tell a variance to `√(2 (1 + a²) / ((1 − a²) n))` of itself.
+    pub fn most_left(&self) -> Option<f64> {
+        let independent: f64 = self
+            .noise
+            .iter()
+            .map(|n| (n.autoregression.powi(2), n.samples as f64))
+            .map(|(square, samples)| samples * (1.0 - square) / (1.0 + square))
+            .sum();
+        let scatter = (2.0 / independent.max(1.0)).sqrt();
+        self.noise_is_repeated()
+            .then_some(1.0 + NEARLY_RIGHT + SCATTER * scatter)
     }
 
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.

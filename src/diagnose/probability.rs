@@ -24,36 +24,54 @@ const UNLISTED: f64 = 0.01;
 /// share one weight, as they are one hypothesis together. Where nothing is named although the evidence
 /// is there, held-out cycles spoke against it, and "none" weighs no less.
 pub fn probabilities(found: &Found, left: f64) -> Vec<f64> {
-    let evidence: Vec<(&str, f64)> = found
-        .trials
-        .iter()
-        .map(|t| (t.cause.name(), t.evidence))
-        .collect();
+    weighed(&evidence(found), &named(found), left)
+}
+
+/// Probability that something which is not in the catalogue is at work, by the same weights.
+pub fn unlisted(found: &Found, left: f64) -> f64 {
+    let listed: Vec<(&str, f64)> = evidence(found);
+    let named = named(found);
+    (UNLISTED + left / LEFT) / total(&listed, &named, left)
+}
+
+fn evidence(found: &Found) -> Vec<(&str, f64)> {
+    let both = found.trials.iter().map(|t| (t.cause.name(), t.evidence));
+    both.collect()
+}
+
+fn named(found: &Found) -> Vec<&str> {
     let effects = found.best.effects.iter();
-    let named: Vec<&str> = effects.map(|a| a.effect.name()).collect();
-    weighed(&evidence, &named, left)
+    effects.map(|a| a.effect.name()).collect()
 }
 
 fn weighed(evidence: &[(&str, f64)], named: &[&str], left: f64) -> Vec<f64> {
-    let best = evidence.iter().fold(0.0_f64, |most, (_, e)| most.max(*e));
-    let tempered = 1.0 + 0.5 * best * LAW;
-    let weight = |e: f64| (0.5 * (e - best) / tempered).exp();
-    let is_named = |name: &str| named.contains(&name);
-    let others = evidence.iter().filter(|(name, _)| !is_named(name));
-    let rest: f64 = others.map(|(_, e)| weight(*e)).sum();
-    let none = match named.is_empty() {
+    let total = total(evidence, named, left);
+    let weight = tempered(evidence);
+    let one = |(name, e): &(&str, f64)| match named.contains(name) {
         true => 1.0,
-        false => weight(0.0),
+        false => weight(*e),
     };
-    let set = match named.is_empty() {
-        true => 0.0,
-        false => 1.0,
+    evidence.iter().map(|pair| one(pair) / total).collect()
+}
+
+/// Weight of an evidence over that of the best.
+fn tempered(evidence: &[(&str, f64)]) -> impl Fn(f64) -> f64 {
+    let best = evidence.iter().fold(0.0_f64, |most, (_, e)| most.max(*e));
+    let temperature = 1.0 + 0.5 * best * LAW;
+    move |e: f64| (0.5 * (e - best) / temperature).exp()
+}
+
+/// Sum of the weights of all hypotheses.
+fn total(evidence: &[(&str, f64)], named: &[&str], left: f64) -> f64 {
+    let weight = tempered(evidence);
+    let others = evidence.iter().filter(|(name, _)| !named.contains(name));
+    let rest: f64 = others.map(|(_, e)| weight(*e)).sum();
+    // Of "none" and the named set one weighs as much as the best.
+    let (none, set) = match named.is_empty() {
+        true => (1.0, 0.0),
+        false => (weight(0.0), 1.0),
     };
-    let total = rest + none + set + UNLISTED + left / LEFT;
-    evidence
-        .iter()
-        .map(|(name, e)| if is_named(name) { set } else { weight(*e) } / total)
-        .collect()
+    rest + none + set + UNLISTED + left / LEFT
 }
 
 #[cfg(test)]

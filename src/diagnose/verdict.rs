@@ -21,25 +21,33 @@ pub const NEGLIGIBLE: f64 = 0.02;
 /// Share of the baseline's structure that may be left by a cause whose law is only nearly right.
 const LEFT: f64 = 0.04;
 
+/// Probability of something that is not in the catalogue above which no name explains a record: as
+/// often a wrong one may.
+const UNSURE: f64 = 0.1;
+
 /// The verdict, from what baseline and extended model leave.
 ///
 /// `named` is `None` where no cause is; else whether the gain on held-out data is beyond its
-/// scatter, without which nothing counts as explained.
+/// scatter, without which nothing counts as explained. `most` bounds `chi`, what the model leaves
+/// over the noise's variance, where the noise is known on its own; `unlisted` is the probability of
+/// something that is not in the catalogue.
 pub fn verdict(
     named: Option<bool>,
     before: &Structure,
     after: &Structure,
-    repeated: bool,
+    most: Option<f64>,
     chi: f64,
+    unlisted: f64,
 ) -> Verdict {
     let left = after.significance > STRUCTURED && after.share > NEGLIGIBLE;
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too, unless what
     // is left is as random as noise: noise that grows with the load is.
     let random = after.correlation < RANDOM && after.significance < SEEN;
-    let over = repeated && chi > 1.5 && !random;
+    let over = most.is_some_and(|most| chi > most) && !random;
     match (named, left || over) {
         (None, false) => Verdict::Clean,
         (None, true) => Verdict::Unexplained,
+        (Some(_), _) if unlisted > UNSURE => Verdict::PartlyExplained,
         (Some(true), false) => Verdict::Explained,
         (Some(true), true) if after.share <= LEFT * before.share && !over => Verdict::Explained,
         (Some(_), _) => Verdict::PartlyExplained,
