@@ -24,6 +24,14 @@ fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
         .map(|i| ((i % 200) as f64 - 100.0).abs() + 0.01 * normal(&mut random))
         .collect();
     assert_eq!(outliers(&triangle, Neighbours::Line), Vec::new());
+    // Without noise, as a controller commands it, and then at rest: only rounding separates a flank from its line.
+    let commanded: Vec<f64> = (0..4000)
+        .map(|i| match i < 1012 {
+            true => 850.05099 - 36.95874 * f64::from(i % 46 - 23).abs(),
+            false => 0.0,
+        })
+        .collect();
+    assert_eq!(outliers(&commanded, Neighbours::Line), Vec::new());
     let mut sine: Vec<f64> = (0..4000).map(|i| (0.06 * i as f64).sin()).collect();
     assert_eq!(outliers(&sine, Neighbours::Line), Vec::new());
     sine[1234] += 0.5;

@@ -140,7 +140,9 @@ fn assemble(
         false => 0.0,
     };
     let verdict = verdict::verdict(
-        named.then(|| gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0),
+        named.then(|| {
+            gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0 && !bench.noise_may_be_structure()
+        }),
         &structure_before,
         &structure_after,
         bench.most_left(),

@@ -4,8 +4,9 @@ use super::mains_phase;
 use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::noise::{Noise, from_differences, from_repeats, from_residual};
+use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::outliers::{Neighbours, outliers};
+use crate::record::repeats::from_repeats;
 use crate::record::split::held_out;
 
 /// Records ready for the search.
@@ -24,6 +25,9 @@ pub struct Bench {
     /// Sizes for the starts of the search.
     pub scale: Scale,
 }
+
+/// Correlation of neighbours above which what varies so slowly is rather structure than noise.
+const SLOW: f64 = 0.9;
 
 /// Share of the noise's variance that a law only nearly right may leave: a third of the noise in rms.
 const NEARLY_RIGHT: f64 = 0.1;
@@ -125,6 +129,13 @@ impl Bench {
     /// True where repeated cycles gave the noise of every record.
     pub fn noise_is_repeated(&self) -> bool {
         self.noise.iter().all(|n| n.repeated)
+    }
+
+    /// True where the noise of a record is what a model left and so slow that it may be the model's error.
+    pub fn noise_may_be_structure(&self) -> bool {
+        self.noise
+            .iter()
+            .any(|n| !n.repeated && n.autoregression > SLOW)
     }
 
     /// Largest mean whitened square that a model without error may leave, where repeated cycles gave

@@ -21,6 +21,7 @@ pub mod seed;
 pub mod series;
 mod slopes;
 pub mod table;
+mod walk;
 
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit, refit_below};

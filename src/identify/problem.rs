@@ -2,6 +2,7 @@
 
 use super::march::{March, Step, added};
 use super::operators::{Form, Operators};
+use super::walk::walk;
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
 use crate::record::peaks::{Between, between};
@@ -68,9 +69,6 @@ pub struct Problem {
     pub records: Vec<Prepared>,
 }
 
-/// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
-const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
-
 /// Prediction of one record by one model, without the record's offset.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Prediction {
@@ -136,47 +134,16 @@ impl Problem {
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects);
-            let mut between = peaks.iter().peekable();
-            let mut kinks = record.between.kinks.iter().peekable();
-            let mut since_kink = usize::MAX;
-            let mut from = (record.time[0], input[0]);
-            for (i, &driven) in input.iter().enumerate() {
-                let to = (record.time[i], driven);
-                let mut left = record.steps[i];
-                since_kink = since_kink.saturating_add(1);
-                if let Some(peak) = between.next_if(|peak| peak.before == i) {
-                    from = (to.0 - peak.ahead, peak.value);
-                    left = peak.ahead;
-                    let step = march.step(from.0, record.steps[i] - left, from.1);
-                    if round + 1 == rounds {
-                        each(None, &march, step);
-                    }
+            let steps = (input.as_slice(), peaks.as_slice());
+            walk(record, steps, &mut march, |i, march, step| {
+                if let Some(i) = i {
+                    truth.force[i] = step.force;
+                    truth.displacement[i] = step.displacement;
                 }
-                if kinks.next_if(|&&kink| kink == i).is_some() {
-                    march.kink();
-                    since_kink = 0;
-                }
-                let parts = match march.carries() {
-                    true => BEHIND_KINK.get(since_kink).copied().unwrap_or(1),
-                    false => 1,
-                };
-                for part in 1..parts {
-                    let share = f64::from(part) / f64::from(parts);
-                    let at = |a: f64, b: f64| a + share * (b - a);
-                    let length = left / f64::from(parts);
-                    let step = march.step(at(from.0, to.0), length, at(from.1, to.1));
-                    if round + 1 == rounds {
-                        each(None, &march, step);
-                    }
-                }
-                let step = march.step(to.0, left / f64::from(parts), driven);
-                truth.force[i] = step.force;
-                truth.displacement[i] = step.displacement;
                 if round + 1 == rounds {
-                    each(Some(i), &march, step);
+                    each(i, march, step);
                 }
-                from = to;
-            }
+            });
             if round + 1 < rounds
                 && let Some(added) = added(effects, input_place, &truth)
             {

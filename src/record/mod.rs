@@ -4,6 +4,7 @@ pub mod cycles;
 pub mod noise;
 pub mod outliers;
 pub mod peaks;
+pub mod repeats;
 mod spectrum;
 pub mod split;
 pub mod thinned;

@@ -1,7 +1,5 @@
-//! The noise of a channel, without a model where cycles of the drive repeat.
+//! The noise of a channel, read off what a model leaves or off the fastest variations.
 
-use super::cycles::{Cycle, alike, cycles};
-use super::peaks::between;
 use super::spectrum::fast_noise;
 
 /// Noise of one channel.
@@ -16,171 +14,6 @@ pub struct Noise {
     /// True where repeated cycles gave it; false where it is read off the fastest variations.
     pub repeated: bool,
 }
-
-/// Noise from steady cycles: second differences over three equal cycles of the drive, so that a
-/// uniform change from cycle to cycle (drift, wear) cancels as well as the response itself.
-///
-/// `response(t−T) − 2 response(t) + response(t+T)` has `4 + 2s` times the noise's variance, with
-/// `s` the sum of squares of the interpolation weights. `None` where fewer than 150 samples lie in
-/// such triples.
-pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
-    let found = cycles(drive);
-    let kinked = kinked(drive);
-    let differences = |triple: &[Cycle], settled: bool| {
-        // Until the first cycle has reached its peak it may remember what was before.
-        let skip = if settled { 0 } else { rise(drive, &triple[0]) };
-        differences(drive, response, &kinked, triple, skip)
-    };
-    // A fourth equal cycle in front makes sure that the memory of another level has closed.
-    let settled: Vec<Vec<f64>> = found
-        .windows(4)
-        .filter(|w| w.windows(2).all(|pair| alike(&pair[0], &pair[1])))
-        .filter_map(|w| differences(&w[1..], true))
-        .collect();
-    let any: Vec<Vec<f64>> = if count(&settled) >= ENOUGH {
-        settled
-    } else {
-        found
-            .windows(3)
-            .filter(|w| w.windows(2).all(|pair| alike(&pair[0], &pair[1])))
-            .filter_map(|w| differences(w, false))
-            .collect()
-    };
-    let calm = calm(any);
-    let samples = count(&calm);
-    if samples < ENOUGH {
-        return None;
-    }
-    let (deviation, autoregression) = moments(&calm.iter().map(Vec::as_slice).collect::<Vec<_>>());
-    Some(Noise {
-        deviation,
-        autoregression,
-        samples,
-        repeated: true,
-    })
-}
-
-/// Fewest samples in repeated cycles from which noise is estimated.
-const ENOUGH: usize = 150;
-
-fn count(parts: &[Vec<f64>]) -> usize {
-    parts.iter().map(Vec::len).sum()
-}
-
-/// Second difference of the drive, over its amplitude, up to which cycles repeat at all.
-const UNEQUAL: f64 = 0.02;
-
-/// Share of the response's second differences that those of the drive may explain.
-const FOLLOWED: f64 = 0.5;
-
-/// Samples from the start of a cycle to its peak.
-fn rise(drive: &[f64], cycle: &Cycle) -> usize {
-    let part = &drive[cycle.start..cycle.end];
-    let highest = |a: &(usize, &f64), b: &(usize, &f64)| a.1.total_cmp(b.1);
-    part.iter()
-        .enumerate()
-        .max_by(highest)
-        .map_or(0, |(at, _)| at)
-}
-
-fn span(channel: &[f64]) -> f64 {
-    let high = channel.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    high - channel.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-/// Samples next to a kink of the drive: no interpolation is right there.
-fn kinked(drive: &[f64]) -> Vec<bool> {
-    let clock: Vec<f64> = (0..drive.len()).map(|i| i as f64).collect();
-    let mut near = vec![false; drive.len()];
-    for behind in between(&clock, drive).kinks {
-        let about = behind.saturating_sub(3)..(behind + 2).min(drive.len());
-        near[about].iter_mut().for_each(|n| *n = true);
-    }
-    near
-}
-
-/// Second differences of the response over three equal cycles, scaled to the noise's own variance;
-/// `None` where the drive does not repeat well enough.
-fn differences(
-    drive: &[f64],
-    response: &[f64],
-    kinked: &[bool],
-    triple: &[Cycle],
-    skip: usize,
-) -> Option<Vec<f64>> {
-    let [first, middle, last] = triple else {
-        return None;
-    };
-    let back = -shift(drive, middle, first.start as f64 - middle.start as f64);
-    let forth = shift(drive, middle, last.start as f64 - middle.start as f64);
-    let sampled = back.fract() == 0.0 && forth.fract() == 0.0;
-    let mut part = Vec::new();
-    let (mut unequal, mut scattered) = (0.0, 0.0);
-    for i in middle.start + skip..middle.end {
-        let at = i as f64;
-        if kinked[i] && !sampled {
-            continue;
-        }
-        if let (Some((before, one)), Some((after, other)), Some((low, _)), Some((high, _))) = (
-            interpolate(response, at - back),
-            interpolate(response, at + forth),
-            interpolate(drive, at - back),
-            interpolate(drive, at + forth),
-        ) {
-            unequal += (low - 2.0 * drive[i] + high).powi(2);
-            scattered += (before - 2.0 * response[i] + after).powi(2);
-            part.push((before - 2.0 * response[i] + after) / (4.0 + one + other).sqrt());
-        }
-    }
-    let root = |sum: f64| (sum / part.len().max(1) as f64).sqrt();
-    let follows =
-        span(&response[middle.start..middle.end]) / span(&drive[middle.start..middle.end]);
-    let repeats = root(unequal) < UNEQUAL * middle.amplitude
-        && root(unequal) * follows <= FOLLOWED * root(scattered);
-    (repeats && part.len() > 8).then_some(part)
-}
-
-/// Keeps the triples whose variance is no further above the lower quartile's than noise scatters, and
-/// at least those within twice of it: the others hold a change of the response itself, which no
-/// noise estimate may contain.
-///
-/// A cycle of correlated noise holds few independent samples, `n (1 − a²) / (1 + a²)` for a variance,
-/// so its variance scatters more; the calmest cycles alone would make it too small and too white.
-fn calm(parts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let square = |part: &[f64]| part.iter().map(|v| v * v).sum::<f64>() / part.len() as f64;
-    let mut squares: Vec<f64> = parts.iter().map(|part| square(part)).collect();
-    squares.sort_by(f64::total_cmp);
-    let Some(&quartile) = squares.get(squares.len() / 4) else {
-        return parts;
-    };
-    let mean_length = count(&parts) as f64 / parts.len() as f64;
-    let within = |most: f64| -> Vec<&[f64]> {
-        let parts = parts.iter().map(Vec::as_slice);
-        parts
-            .filter(|part| square(part) <= most * quartile)
-            .collect()
-    };
-    let mut most: f64 = 2.0;
-    for _ in 0..8 {
-        let calm = within(most);
-        // From too few samples no correlation can be told.
-        if calm.iter().map(|part| part.len()).sum::<usize>() < ENOUGH {
-            break;
-        }
-        let (_, a) = moments(&calm);
-        let spread = (2.0 * (1.0 + a * a) / (1.0 - a * a) / mean_length).sqrt();
-        // A normal variable's lower quartile lies 0.674 standard deviations below its mean.
-        let wider = (1.0 + SCATTER * spread) / (1.0 - 0.674 * spread).max(0.2);
-        if wider <= most {
-            break;
-        }
-        most = wider;
-    }
-    within(most).into_iter().map(<[f64]>::to_vec).collect()
-}
-
-/// Standard deviations above its mean up to which a cycle's variance passes for that of noise.
-const SCATTER: f64 = 3.0;
 
 /// Noise of a residual that nothing repeats in.
 ///
@@ -221,7 +54,7 @@ pub fn from_differences(residual: &[f64]) -> Noise {
 }
 
 /// Standard deviation and lag-one correlation, the latter without the bias of short parts.
-fn moments(parts: &[&[f64]]) -> (f64, f64) {
+pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
     let (mut square, mut product, mut count, mut pairs) = (0.0, 0.0, 0.0, 0.0);
     for part in parts {
         square += part.iter().map(|v| v * v).sum::<f64>();
@@ -243,63 +76,4 @@ fn moments(parts: &[&[f64]]) -> (f64, f64) {
             0.0
         },
     )
-}
-
-/// Shift in samples, near `guess`, at which the drive repeats the given cycle best
-/// (Gauss–Newton on the sum of squared differences).
-fn shift(drive: &[f64], cycle: &Cycle, guess: f64) -> f64 {
-    let mut shift = guess;
-    for _ in 0..6 {
-        let (mut product, mut norm) = (0.0, 0.0);
-        for i in cycle.start..cycle.end {
-            let at = i as f64 + shift;
-            if let (Some((here, _)), Some((ahead, _)), Some((behind, _))) = (
-                interpolate(drive, at),
-                interpolate(drive, at + 0.5),
-                interpolate(drive, at - 0.5),
-            ) {
-                let slope = ahead - behind;
-                product += slope * (drive[i] - here);
-                norm += slope * slope;
-            }
-        }
-        let step = if norm > 0.0 {
-            (product / norm).clamp(-2.0, 2.0)
-        } else {
-            0.0
-        };
-        shift += step;
-        if step.abs() < 1e-6 {
-            break;
-        }
-    }
-    // A drive sampled in step with its period repeats to the sample: no interpolation then.
-    if (shift - shift.round()).abs() < 1e-3 {
-        shift.round()
-    } else {
-        shift
-    }
-}
-
-/// Cubic Lagrange interpolation at a fractional index, and the sum of squares of its weights.
-fn interpolate(channel: &[f64], at: f64) -> Option<(f64, f64)> {
-    let base = at.floor();
-    let s = at - base;
-    let base = base as isize;
-    if base < 1 || base + 2 >= channel.len() as isize {
-        return None;
-    }
-    let b = base as usize;
-    let weights = [
-        -s * (s - 1.0) * (s - 2.0) / 6.0,
-        (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
-        -(s + 1.0) * s * (s - 2.0) / 2.0,
-        (s + 1.0) * s * (s - 1.0) / 6.0,
-    ];
-    let value = weights
-        .iter()
-        .zip(&channel[b - 1..b + 3])
-        .map(|(w, y)| w * y)
-        .sum();
-    Some((value, weights.iter().map(|w| w * w).sum()))
 }

@@ -19,6 +19,9 @@ const ASKED: usize = 4;
 /// fourteenfold outlier does (tests/outliers.rs).
 const ALONE: f64 = 9.0;
 
+/// Share of the largest value that may be rounding: files have six digits and more.
+const ROUNDING: f64 = 1e-6;
+
 /// Share of the samples above which the channel is like that.
 const FEW: f64 = 0.03;
 
@@ -57,9 +60,11 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
         })
         .collect();
     // Half of the deviations are zero by construction where the channel is noise.
+    let largest = channel.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let rounding = ROUNDING * largest;
     let typical = quantile(deviations.iter().map(|d| d.abs()).collect(), 0.75);
     let found: Vec<(usize, f64)> = (0..deviations.len())
-        .filter(|&k| deviations[k].abs() > ALONE * typical)
+        .filter(|&k| deviations[k].abs() > (ALONE * typical).max(rounding))
         // Where the sides differ by more than the sample does from one of them, that side holds it:
         // next to the tip of a noiseless triangle its own side is off by rounding only.
         .filter(|&k| (sides[k].0 - sides[k].1).abs() < deviations[k].abs())

@@ -9,7 +9,8 @@ use crate::diagnose::trials::{ALARM, dispersion};
 use crate::identify::{Fit, Operators, Problem, baseline, refit};
 use crate::joint::effect::Acting;
 use crate::record::Record;
-use crate::record::noise::{from_differences, from_repeats};
+use crate::record::noise::from_differences;
+use crate::record::repeats::from_repeats;
 
 /// What a dummy says of one cause of the measuring chain.
 #[derive(Debug, Clone, PartialEq)]

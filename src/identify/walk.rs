@@ -1,0 +1,51 @@
+//! The steps of a march through one record: its samples, and what lies between them.
+
+use super::march::{March, Step};
+use super::problem::Prepared;
+use crate::record::peaks::Peak;
+
+/// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
+const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
+
+/// Takes every step of a record under the given input and its peaks; `each` sees them all, with the
+/// sample that a step ends at, or `None` where it ends between two.
+pub(super) fn walk(
+    record: &Prepared,
+    (input, peaks): (&[f64], &[Peak]),
+    march: &mut March,
+    mut each: impl FnMut(Option<usize>, &March, Step),
+) {
+    let mut peaks = peaks.iter().peekable();
+    let mut kinks = record.between.kinks.iter().peekable();
+    let mut since_kink = usize::MAX;
+    let mut from = (0.0, 0.0);
+    for (i, &driven) in input.iter().enumerate() {
+        let to = (record.time[i], driven);
+        let mut left = record.steps[i];
+        since_kink = since_kink.saturating_add(1);
+        if let Some(peak) = peaks.next_if(|peak| peak.before == i) {
+            from = (to.0 - peak.ahead, peak.value);
+            left = peak.ahead;
+            let step = march.step(from.0, record.steps[i] - left, from.1);
+            each(None, march, step);
+        }
+        if kinks.next_if(|&&kink| kink == i).is_some() {
+            march.kink();
+            since_kink = 0;
+        }
+        let parts = match march.carries() {
+            true => BEHIND_KINK.get(since_kink).copied().unwrap_or(1),
+            false => 1,
+        };
+        let length = left / f64::from(parts);
+        for part in 1..parts {
+            let share = f64::from(part) / f64::from(parts);
+            let at = |a: f64, b: f64| a + share * (b - a);
+            let step = march.step(at(from.0, to.0), length, at(from.1, to.1));
+            each(None, march, step);
+        }
+        let step = march.step(to.0, length, driven);
+        each(Some(i), march, step);
+        from = to;
+    }
+}
