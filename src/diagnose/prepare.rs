@@ -4,6 +4,7 @@ use super::mains_phase;
 use crate::causes::Scale;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
+use crate::record::cycles::span;
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::outliers::{Neighbours, outliers};
 use crate::record::repeats::from_repeats;
@@ -66,12 +67,7 @@ pub fn form(records: &[Record]) -> Form {
 /// Largest over smallest secant compliance, from the peaks of the loops: the smallest from the
 /// steepest tenth of local slopes, the largest from the overall range.
 pub fn compliance_ratio(record: &Record) -> f64 {
-    let range = |c: &[f64]| {
-        let high = c.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let low = c.iter().copied().fold(f64::INFINITY, f64::min);
-        high - low
-    };
-    let (force, displacement) = (range(&record.force), range(&record.displacement));
+    let (force, displacement) = (span(&record.force), span(&record.displacement));
     if !(force > 0.0 && displacement > 0.0) {
         return 1.0;
     }
@@ -210,7 +206,9 @@ fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
                 record.weight[i] = 0.0;
             }
         }
-        record.look_between(form);
+        if struck.contains(&true) {
+            record.look_between(form);
+        }
     }
 }
 

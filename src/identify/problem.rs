@@ -52,11 +52,15 @@ impl Prepared {
 
     /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
     pub fn look_between(&mut self, form: Form) {
-        let input = match form {
-            Form::Play => &self.force,
-            Form::Stop => &self.displacement,
-        };
-        self.between = between(&self.time, input);
+        self.between = between(&self.time, self.channels(form).0);
+    }
+
+    /// Measured input and measured judged channel of a form.
+    pub fn channels(&self, form: Form) -> (&[f64], &[f64]) {
+        match form {
+            Form::Play => (&self.force, &self.displacement),
+            Form::Stop => (&self.displacement, &self.force),
+        }
     }
 }
 
@@ -84,10 +88,7 @@ impl Problem {
         let prepared: Vec<Prepared> = records.iter().map(|r| Prepared::new(r, form)).collect();
         let range = prepared
             .iter()
-            .flat_map(|p| match form {
-                Form::Play => &p.force,
-                Form::Stop => &p.displacement,
-            })
+            .flat_map(|p| p.channels(form).0)
             .fold(0.0_f64, |a, &b| a.max(b.abs()));
         Problem {
             operators: Operators::grid(form, range),
@@ -97,11 +98,7 @@ impl Problem {
 
     /// Measured input and measured judged channel of record `k`.
     pub fn channels(&self, k: usize) -> (&[f64], &[f64]) {
-        let record = &self.records[k];
-        match self.operators.form {
-            Form::Play => (&record.force, &record.displacement),
-            Form::Stop => (&record.displacement, &record.force),
-        }
+        self.records[k].channels(self.operators.form)
     }
 
     /// Marches through record `k`; `each` sees every accepted step of the final pass, `None` at the

@@ -87,12 +87,17 @@ pub fn alike(a: &Cycle, b: &Cycle) -> bool {
         && (a.len() as f64 - b.len() as f64).abs() <= (SAME_LEVEL * length).max(2.0)
 }
 
+/// Highest less lowest value of a channel, in its unit.
+pub fn span(channel: &[f64]) -> f64 {
+    let high = channel.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = channel.iter().copied().fold(f64::INFINITY, f64::min);
+    high - low
+}
+
 /// Indices of turning points, ignoring wiggles below `band` of the channel's largest range; the
 /// first and last samples count as turning points.
 pub fn turning_points(channel: &[f64], band: f64) -> Vec<usize> {
-    let high = channel.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = channel.iter().copied().fold(f64::INFINITY, f64::min);
-    let dead = band * (high - low);
+    let dead = band * span(channel);
     let mut turns = vec![0];
     if dead <= 0.0 || channel.len() < 2 {
         return turns;

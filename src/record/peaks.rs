@@ -22,6 +22,25 @@ pub struct Between {
     pub kinks: Vec<usize>,
 }
 
+impl Between {
+    /// The same beside the samples kept of a record, by their indices; `time` is the whole record's.
+    pub fn thin(&mut self, kept: &[usize], time: &[f64]) {
+        let behind = |sample: usize| kept.partition_point(|&i| i < sample);
+        self.peaks.retain_mut(|peak| {
+            let was = peak.before;
+            peak.before = behind(was);
+            let sample = kept.get(peak.before);
+            sample
+                .inspect(|&&now| peak.ahead += time[now] - time[was])
+                .is_some()
+        });
+        self.peaks.dedup_by_key(|peak| peak.before);
+        self.kinks.iter_mut().for_each(|kink| *kink = behind(*kink));
+        self.kinks.retain(|kink| *kink < kept.len());
+        self.kinks.dedup();
+    }
+}
+
 /// Wiggles below this share of the channel's range are no turning points.
 const BAND: f64 = 0.005;
 

@@ -1,6 +1,6 @@
 //! Noise of a channel where cycles of the drive repeat: no model is needed then.
 
-use super::cycles::{Cycle, alike, cycles};
+use super::cycles::{Cycle, alike, cycles, span};
 use super::noise::{Noise, moments};
 use super::peaks::between;
 
@@ -68,11 +68,6 @@ fn rise(drive: &[f64], cycle: &Cycle) -> usize {
         .enumerate()
         .max_by(highest)
         .map_or(0, |(at, _)| at)
-}
-
-fn span(channel: &[f64]) -> f64 {
-    let high = channel.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    high - channel.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Samples next to a kink of the drive: no interpolation is right there.

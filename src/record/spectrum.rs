@@ -44,13 +44,11 @@ pub fn fast_noise(residual: &[f64]) -> Option<FastNoise> {
         let logs: f64 = band.clone().map(|bin| shape(a, bin).ln()).sum();
         innovation(a).ln() + logs / band.len() as f64
     };
-    let best = (0..100)
-        .map(|step| 0.01 * f64::from(step))
-        .min_by(|&x, &y| against(x).total_cmp(&against(y)))?;
+    let correlations = || (0..100).map(|step| 0.01 * f64::from(step));
+    let best = correlations().min_by(|&x, &y| against(x).total_cmp(&against(y)))?;
     let samples = band.len() as f64 * residual.len() as f64 / SEGMENT as f64;
     let deviation = |a: f64| (innovation(a) / (1.0 - a * a)).sqrt();
-    let most = (0..100)
-        .map(|step| 0.01 * f64::from(step))
+    let most = correlations()
         .filter(|&a| 2.0 * samples * (against(a) - against(best)) <= POSSIBLE)
         .map(deviation)
         .fold(deviation(best), f64::max);

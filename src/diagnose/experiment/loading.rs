@@ -51,20 +51,7 @@ fn thin(record: &mut Prepared, input: &[f64], every: usize, length: usize) {
         .filter(|&i| i % every == 0 || turns(i) && turning_far(input, i, every))
         .collect();
     let pick = |channel: &[f64]| kept.iter().map(|&i| channel[i]).collect::<Vec<f64>>();
-    record.between.peaks.retain_mut(|peak| {
-        let was = peak.before;
-        peak.before = kept.partition_point(|&i| i < was);
-        let sample = kept.get(peak.before);
-        sample
-            .inspect(|&&now| peak.ahead += record.time[now] - record.time[was])
-            .is_some()
-    });
-    record.between.peaks.dedup_by_key(|peak| peak.before);
-    record.between.kinks.retain_mut(|kink| {
-        *kink = kept.partition_point(|&i| i < *kink);
-        *kink < kept.len()
-    });
-    record.between.kinks.dedup();
+    record.between.thin(&kept, &record.time);
     let a = record.autoregression;
     record.time = pick(&record.time);
     record.force = pick(&record.force);
