@@ -40,30 +40,24 @@ fn total(lanes: Lanes) -> f64 {
     sum[0]
 }
 
-/// Filled up with operators of no weight.
-fn columns(values: impl Iterator<Item = f64>) -> Vec<Lanes> {
-    let mut columns = Vec::new();
-    for (i, value) in values.enumerate() {
-        if i % LANES == 0 {
-            columns.push([0.0; LANES]);
-        }
-        if let Some(last) = columns.last_mut() {
-            last[i % LANES] = value;
-        }
-    }
-    columns
-}
-
 impl Bank {
-    /// Virgin operators with the given thresholds and weights.
-    pub fn new(thresholds: &[f64], weights: impl Iterator<Item = f64>) -> Bank {
-        let thresholds = columns(thresholds.iter().copied());
+    /// Virgin operators with the given thresholds and weights, filled up with some of no weight.
+    pub fn new(operators: impl Iterator<Item = (f64, f64)>) -> Bank {
+        let (mut thresholds, mut weights) = (Vec::new(), Vec::new());
+        for (i, (threshold, weight)) in operators.enumerate() {
+            if i % LANES == 0 {
+                thresholds.push([0.0; LANES]);
+                weights.push([0.0; LANES]);
+            }
+            thresholds[i / LANES][i % LANES] = threshold;
+            weights[i / LANES][i % LANES] = weight;
+        }
         Bank {
             arch: Arch::new(),
-            weights: columns(weights.take(thresholds.len() * LANES)),
             positions: vec![[0.0; LANES]; thresholds.len()],
             trial: vec![[0.0; LANES]; thresholds.len()],
             thresholds,
+            weights,
         }
     }
 

@@ -15,6 +15,8 @@ pub struct March<'a> {
     memories: Vec<Vec<f64>>,
     last: Situation,
     earlier: Option<(f64, f64)>,
+    /// Share of the last step: where the next one's root is looked for first.
+    share: f64,
     limits: (f64, f64),
     has: [bool; 7],
     counts_energy: bool,
@@ -33,6 +35,13 @@ pub struct Step {
     /// displacement carries a change of the model on to later samples.
     pub carried: [f64; 2],
 }
+
+/// Error of a step's equation, as a share of its input, that counts as none: a derivative by
+/// differences of a ten-thousandth is good to a part in a million of it, even for small effects.
+const PRECISE: f64 = 1e-13;
+
+/// Trials after which a step takes what it has.
+const MOST_TRIALS: usize = 60;
 
 /// What is known of where the one root of an increasing equation lies.
 struct Bracket {
@@ -71,9 +80,23 @@ fn index(place: Place) -> usize {
     place as usize
 }
 
+/// The cells that a march carries along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cells {
+    /// All of them: asked for rows of the dictionary.
+    All,
+    /// Those with a coefficient, a third of them or fewer after a fit: enough for a prediction.
+    Weighted,
+}
+
 impl<'a> March<'a> {
     /// A virgin joint with the given coefficients (elastic first, then one per cell).
-    pub fn new(operators: &'a Operators, coefficients: &'a [f64], effects: &'a [Acting]) -> Self {
+    pub fn new(
+        operators: &'a Operators,
+        coefficients: &'a [f64],
+        effects: &'a [Acting],
+        cells: Cells,
+    ) -> Self {
         let mut has = [false; 7];
         for acting in effects {
             has[index(acting.effect.place())] = true;
@@ -88,10 +111,15 @@ impl<'a> March<'a> {
             true => &operators.thresholds,
             false => operators.within(),
         };
+        let cells = thresholds
+            .chunks_exact(SHARED)
+            .zip(&coefficients[1..])
+            .filter(|(_, coefficient)| cells == Cells::All || **coefficient != 0.0)
+            .flat_map(|(cell, c)| cell.iter().map(move |&r| (r, c / SHARED as f64)));
         March {
             operators,
             elastic: coefficients[0],
-            bank: Bank::new(thresholds, operators.spread(&coefficients[1..])),
+            bank: Bank::new(cells),
             effects,
             memories: effects
                 .iter()
@@ -99,6 +127,7 @@ impl<'a> March<'a> {
                 .collect(),
             last: Situation::default(),
             earlier: None,
+            share: 1.0,
             limits: (1.0, 1.0),
             has,
             // Only slip limits see the energy; without effects it is what the march is asked for.
@@ -111,7 +140,8 @@ impl<'a> March<'a> {
         self.has[index(Place::BesideJoint)]
     }
 
-    /// What the judged channel gains at once per unit of each coefficient, the elastic one first.
+    /// What the judged channel gains at once per unit of each coefficient, the elastic one first; of a
+    /// march with all cells.
     pub(super) fn row(&self, step: Step, row: &mut [f64]) {
         row[0] = step.share
             * match self.operators.form {
@@ -259,10 +289,11 @@ impl<'a> March<'a> {
     fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
         let parallel = self.has[index(Place::BesideSlip)] || self.has[index(Place::BesideJoint)];
         let mut trial = if parallel {
-            self.network_force() + (force - self.last_applied())
+            self.network_force() + self.share * (force - self.last_applied())
         } else {
             force
         };
+        let precise = PRECISE * force.abs().max(0.1 * self.range());
         let mut bracket = Bracket::new();
         let mut answer;
         let mut round = 0;
@@ -281,10 +312,9 @@ impl<'a> March<'a> {
             let share = (1.0 / slope).clamp(0.0, 1.0);
             let carried = self.carried(displacement, step, across_slope);
             let carried = carried.map(|c| c * displacement_slope * share);
-            if !parallel
-                || error.abs() <= 1e-12 * (force.abs() + self.last.force.abs())
-                || round >= 60
-            {
+            let next = bracket.next(trial, error, slope, 2.0 * error);
+            if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
+                self.share = share;
                 self.accept(time, step, answer);
                 return Step {
                     force,
@@ -292,10 +322,6 @@ impl<'a> March<'a> {
                     share,
                     carried,
                 };
-            }
-            let next = bracket.next(trial, error, slope, 2.0 * error);
-            if next == trial {
-                round = 60;
             }
             trial = next;
             round += 1;
@@ -320,10 +346,11 @@ impl<'a> March<'a> {
     fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
         let path_acts = self.has[index(Place::Spring)] || self.has[index(Place::InSeries)];
         let mut trial = if path_acts {
-            self.last.slip
+            self.last.slip + self.share * (displacement - self.last.displacement)
         } else {
             displacement
         };
+        let precise = PRECISE * displacement.abs().max(0.1 * self.range());
         let mut bracket = Bracket::new();
         let mut round = 0;
         loop {
@@ -334,10 +361,12 @@ impl<'a> March<'a> {
             let (path, path_slope) = self.in_path(joint_force, step);
             let error = trial + path - displacement;
             let slope = 1.0 + path_slope * joint_slope;
-            if !path_acts || error.abs() <= 1e-13 * displacement.abs() || round >= 60 {
+            let next = bracket.next(trial, error, slope, error);
+            if !path_acts || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 let (across, _, velocity) = self.beside_joint(displacement, step);
                 self.accept(time, step, (trial, joint_force, displacement, velocity));
                 let share = (1.0 / slope).clamp(0.0, 1.0);
+                self.share = share;
                 return Step {
                     force: joint_force + across,
                     displacement,
@@ -345,13 +374,14 @@ impl<'a> March<'a> {
                     carried: [0.0; 2],
                 };
             }
-            let next = bracket.next(trial, error, slope, error);
-            if next == trial {
-                round = 60;
-            }
             trial = next;
             round += 1;
         }
+    }
+
+    /// Largest input that the grid was made for.
+    fn range(&self) -> f64 {
+        self.operators.edges.last().copied().unwrap_or(0.0)
     }
 
     fn accept(&mut self, time: f64, step: f64, answer: (f64, f64, f64, f64)) {

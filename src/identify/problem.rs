@@ -1,6 +1,6 @@
 //! Records prepared for identification: one judged channel, weights, whitening, one common grid.
 
-use super::march::{March, Step, added};
+use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
 use super::walk::walk;
 use crate::joint::effect::{Acting, Place, Trajectory};
@@ -112,6 +112,15 @@ impl Problem {
         k: usize,
         coefficients: &[f64],
         effects: &[Acting],
+        each: impl FnMut(Option<usize>, &March, Step),
+    ) -> Prediction {
+        self.marched(k, (coefficients, effects, Cells::All), each)
+    }
+
+    fn marched(
+        &self,
+        k: usize,
+        (coefficients, effects, cells): (&[f64], &[Acting], Cells),
         mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> Prediction {
         let record = &self.records[k];
@@ -130,7 +139,7 @@ impl Problem {
             displacement: record.displacement.clone(),
         };
         for round in 0..rounds {
-            let mut march = March::new(&self.operators, coefficients, effects);
+            let mut march = March::new(&self.operators, coefficients, effects, cells);
             let steps = (input.as_slice(), peaks.as_slice());
             walk(record, steps, &mut march, |i, march, step| {
                 if let Some(i) = i {
@@ -165,7 +174,7 @@ impl Problem {
     /// Predictions of every record.
     pub fn predict(&self, coefficients: &[f64], effects: &[Acting]) -> Vec<Prediction> {
         (0..self.records.len())
-            .map(|k| self.pass(k, coefficients, effects, |_, _, _| {}))
+            .map(|k| self.marched(k, (coefficients, effects, Cells::Weighted), |_, _, _| {}))
             .collect()
     }
 
