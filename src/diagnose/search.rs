@@ -11,6 +11,10 @@ use crate::identify::{Fit, Problem, refit};
 /// the named cause's law being only nearly right.
 const FURTHER_SHARE: f64 = 0.10;
 
+/// Share of its rows below which no misfit falls: the noise may have been estimated too large, by a
+/// factor of 1.4 at most.
+const OVERRATED: f64 = 0.5;
+
 /// Causes, best first, whose prediction of held-out cycles is looked at in one round.
 const PREDICTORS: usize = 4;
 
@@ -61,9 +65,15 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
     let mut current = baseline.clone();
     let mut first: Option<Vec<Trial>> = None;
     for round in 0..MOST {
-        let trials = trials(problem, &bench.scale, timed, &current, effort);
-        let enough =
-            |t: &Trial| round == 0 || current.misfit - t.fit.misfit > FURTHER_SHARE * beyond;
+        let enough = match round {
+            0 => f64::INFINITY,
+            _ => current.misfit - FURTHER_SHARE * beyond,
+        };
+        if enough < OVERRATED * problem.rows() as f64 {
+            break;
+        }
+        let trials = trials(problem, &bench.scale, timed, &current, (effort, enough));
+        let enough = |t: &Trial| t.fit.misfit < enough;
         let mut promising = trials.iter().filter(|t| t.evidence >= ALARM && enough(t));
         let next = match effort {
             Effort::Quick => promising.next(),
@@ -115,22 +125,24 @@ fn rivals(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> (Vec<Vec<S
         let mut others = best.effects.clone();
         let named = others.remove(place);
         let without = refit(problem, best, others);
-        let anew = match best.effects.len() {
-            1 => None,
-            _ => Some(trials(problem, &bench.scale, timed, &without, Effort::Full)),
-        };
         let scale = dispersion(problem, best);
         let brought = without.misfit - best.misfit;
         evidence.push(brought / scale);
         let rows = problem.rows() as f64;
         let left = (best.misfit - rows - SCATTER * (2.0 * rows).sqrt()).max(0.0);
         let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
+        let as_well = best.misfit + MARGIN * scale + unseen;
+        let wanted = (Effort::Full, as_well);
+        let anew = match best.effects.len() {
+            1 => None,
+            _ => Some(trials(problem, &bench.scale, timed, &without, wanted)),
+        };
         let rivals = anew
             .as_deref()
             .unwrap_or(first)
             .iter()
             .filter(|t| t.plausible && t.cause.name() != named.effect.name())
-            .filter(|t| t.fit.misfit - best.misfit < MARGIN * scale + unseen)
+            .filter(|t| t.fit.misfit < as_well)
             .map(|t| t.cause.name().to_string())
             .collect();
         all.push(rivals);

@@ -55,13 +55,14 @@ const REFINED: f64 = 10.0;
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
-/// Tries every cause beside the current set, best first.
+/// Tries every cause beside the current set, best first; a refit without prospect of a misfit below
+/// `wanted` is given up.
 pub fn trials(
     problem: &Problem,
     scale: &Scale,
     timed: bool,
     current: &Fit,
-    effort: Effort,
+    (effort, wanted): (Effort, f64),
 ) -> Vec<Trial> {
     let mut scored = scored(problem, scale, timed, current);
     let first = |s: &Scored| s.1.first().map_or(0.0, |s| s.fall);
@@ -99,14 +100,11 @@ pub fn trials(
             fit,
         }
     };
-    let mut trials: Vec<Trial> = leading
-        .par_iter()
-        .map(|one| try_one(one, f64::INFINITY))
-        .collect();
+    let mut trials: Vec<Trial> = leading.par_iter().map(|one| try_one(one, wanted)).collect();
     let lowest = trials
         .iter()
         .fold(current.misfit, |least, t| least.min(t.fit.misfit));
-    let bound = lowest + BEHIND * (current.misfit - lowest) + ALARM;
+    let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
     if effort == Effort::Full {
         trials.par_extend(others.par_iter().map(|one| try_one(one, bound)));
     }
