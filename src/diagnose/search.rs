@@ -44,6 +44,7 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
 pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
+    let best = exchanged(bench, timed, &baseline, best);
     let best = tested(bench, &baseline, best);
     let (rivals, evidence) = rivals(bench, timed, &best, &first);
     Found {
@@ -61,13 +62,13 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
 /// samples included, of those that [`Prospect::holds`] lets pass.
 fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Vec<Trial>) {
     let problem = &bench.train;
-    let beyond = (baseline.misfit - problem.rows() as f64).max(0.0);
+    let least = least(problem, baseline);
     let mut current = baseline.clone();
     let mut first: Option<Vec<Trial>> = None;
     for round in 0..MOST {
         let enough = match round {
             0 => f64::INFINITY,
-            _ => current.misfit - FURTHER_SHARE * beyond,
+            _ => current.misfit - least,
         };
         if enough < OVERRATED * problem.rows() as f64 {
             break;
@@ -87,15 +88,56 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
         let next = next.map(|t| t.fit.clone());
         first.get_or_insert(trials);
         match next {
-            Some(fit) => current = prune(problem, fit),
+            Some(fit) => current = prune(problem, fit, least),
             None => break,
         }
     }
     (current, first.unwrap_or_default())
 }
 
-/// Drops causes that the others have made needless.
-fn prune(problem: &Problem, mut fit: Fit) -> Fit {
+/// Misfit that one cause of several has to take away beside the others.
+fn least(problem: &Problem, baseline: &Fit) -> f64 {
+    FURTHER_SHARE * (baseline.misfit - problem.rows() as f64).max(0.0)
+}
+
+/// Exchanges one cause of several for another as long as that lowers the squared error, held-out
+/// samples included: the first cause was chosen before the others were known.
+fn exchanged(bench: &Bench, timed: bool, baseline: &Fit, mut best: Fit) -> Fit {
+    let problem = &bench.train;
+    for _ in 0..MOST {
+        if best.effects.len() < 2 {
+            break;
+        }
+        let gain = |t: &Trial| Prospect::of(bench, &best, &t.fit).total();
+        let better = (0..best.effects.len())
+            .flat_map(|place| {
+                let mut others = best.effects.clone();
+                let named = others.remove(place).effect.name();
+                let without = refit(problem, &best, others);
+                let wanted = 0.5 * (best.misfit + without.misfit);
+                let mut trials = trials(
+                    problem,
+                    &bench.scale,
+                    timed,
+                    &without,
+                    (Effort::Full, wanted),
+                );
+                trials.retain(|t| t.plausible && t.fit.misfit < wanted && t.cause.name() != named);
+                trials
+            })
+            .map(|t| (gain(&t), t.fit))
+            .filter(|(gain, _)| *gain > ALARM * dispersion(problem, &best))
+            .max_by(|(a, _), (b, _)| a.total_cmp(b));
+        match better {
+            Some((_, fit)) => best = prune(problem, fit, least(problem, baseline)),
+            None => break,
+        }
+    }
+    best
+}
+
+/// Drops causes that the others have made needless; `least` is what one has to take away.
+fn prune(problem: &Problem, mut fit: Fit, least: f64) -> Fit {
     while fit.effects.len() > 1 {
         let without: Option<Fit> = (0..fit.effects.len())
             .map(|drop| {
@@ -105,7 +147,9 @@ fn prune(problem: &Problem, mut fit: Fit) -> Fit {
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
-            Some(less) if (less.misfit - fit.misfit) / dispersion(problem, &fit) < ALARM => {
+            Some(less)
+                if less.misfit - fit.misfit < least.max(ALARM * dispersion(problem, &fit)) =>
+            {
                 fit = less;
             }
             _ => break,

@@ -9,7 +9,8 @@ use crate::identify::{Fit, refit};
 ///
 /// A single cause has to lower the held-out error or most of the misfit. Every one of several has to
 /// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
-/// causes, the more ways to mend by one what another's law is wrong about.
+/// causes, the more ways to mend by one what another's law is wrong about. One that takes most of
+/// the misfit away stays: what happens once, or at one rate, few held-out cycles show.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     while fit.effects.len() > 1 {
         let after = fit.predict(&bench.train);
@@ -19,7 +20,11 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
                 others.remove(place);
                 let less = refit(&bench.train, &fit, others);
                 let (value, interval) = ratio(bench, &less.predict(&bench.train), &after);
-                (interval.map_or(value, |(_, upper)| upper), less)
+                let upper = match Prospect::of(bench, &less, &fit).dominates() {
+                    true => 0.0,
+                    false => interval.map_or(value, |(_, upper)| upper),
+                };
+                (upper, less)
             })
             .max_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
@@ -92,6 +97,11 @@ impl Prospect {
     pub fn holds(&self) -> bool {
         self.held_out > 0.0
             || self.difference < TELLING
-            || self.fitted > DOMINANT * self.beyond && self.total() > 0.0
+            || self.dominates()
+    }
+
+    /// True where the set takes most of the misfit beyond noise away, held-out samples included.
+    pub fn dominates(&self) -> bool {
+        self.fitted > DOMINANT * self.beyond && self.total() > 0.0
     }
 }
