@@ -41,6 +41,9 @@ impl Effect for JointOpening {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    fn keeps_side(&self, parameter: usize) -> bool {
+        PARAMETERS[parameter].name == "opening_force"
+    }
     fn spring(&self, values: &[f64], force: f64) -> Response {
         let [compliance, opens] = [values[0], values[1]];
         let beyond = if opens >= 0.0 {

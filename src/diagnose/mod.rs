@@ -11,6 +11,7 @@ pub mod joint_parameters;
 pub mod left_out;
 pub mod levels;
 mod mains_phase;
+mod places;
 pub mod prepare;
 mod probability;
 pub mod search;

@@ -1,15 +1,18 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
 //! the baseline, the best set grown forward and pruned backward.
 
+use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::{Prospect, tested};
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
-use super::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Problem, refit};
 
 /// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
 /// the named cause's law being only nearly right.
 const FURTHER_SHARE: f64 = 0.10;
+
+/// Share of its rows, beyond scatter, from which what a set leaves may be a second cause.
+const STRUCTURE: f64 = 0.05;
 
 /// Share of its rows below which no misfit falls: the noise may have been estimated too large, by a
 /// factor of 1.4 at most.
@@ -44,15 +47,22 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
 pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
-    let best = exchanged(bench, timed, &baseline, best);
-    let best = tested(bench, &baseline, best);
-    let (rivals, evidence) = rivals(bench, timed, &best, &first);
+    let least = least(&bench.train, &baseline);
+    let (settled, mut places) = settled(bench, timed, least, best, &first);
+    let best = tested(bench, &baseline, settled.clone());
+    if best.effects != settled.effects {
+        places = places::places(bench, timed, &best, &first);
+    }
+    let scale = dispersion(&bench.train, &best);
     Found {
+        rivals: places
+            .iter()
+            .map(|p| p.rivals(&bench.train, &best))
+            .collect(),
+        evidence: places.iter().map(|p| p.brought / scale).collect(),
         baseline,
         best,
         trials: first,
-        rivals,
-        evidence,
     }
 }
 
@@ -68,6 +78,7 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
     for round in 0..MOST {
         let enough = match round {
             0 => f64::INFINITY,
+            1 => current.misfit - least.min(0.5 * structure(problem, &current)),
             _ => current.misfit - least,
         };
         if enough < OVERRATED * problem.rows() as f64 {
@@ -88,6 +99,7 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
         let next = next.map(|t| t.fit.clone());
         first.get_or_insert(trials);
         match next {
+            Some(fit) if round == 1 => current = fit,
             Some(fit) => current = prune(problem, fit, least),
             None => break,
         }
@@ -95,45 +107,51 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
     (current, first.unwrap_or_default())
 }
 
+/// Misfit that noise alone does not leave; without end where a set leaves no such.
+///
+/// Half of it is enough for a second cause to be looked at: two that explain all may each beside the
+/// other bring what neither brings beside a first one that is neither of them.
+fn structure(problem: &Problem, fit: &Fit) -> f64 {
+    let rows = problem.rows() as f64;
+    let left = fit.misfit - rows - places::SCATTER * (2.0 * rows).sqrt();
+    if left > STRUCTURE * rows {
+        left
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// Misfit that one cause of several has to take away beside the others.
 fn least(problem: &Problem, baseline: &Fit) -> f64 {
     FURTHER_SHARE * (baseline.misfit - problem.rows() as f64).max(0.0)
 }
 
-/// Exchanges one cause of several for another as long as that lowers the squared error, held-out
-/// samples included: the first cause was chosen before the others were known.
-fn exchanged(bench: &Bench, timed: bool, baseline: &Fit, mut best: Fit) -> Fit {
-    let problem = &bench.train;
+/// Exchanges causes of a set of several as long as that makes it better.
+///
+/// Returns the set with its places; a cause that does not bring its share beside the others is dropped.
+fn settled(
+    bench: &Bench,
+    timed: bool,
+    least: f64,
+    mut best: Fit,
+    first: &[Trial],
+) -> (Fit, Vec<Place>) {
+    let mut places = places::places(bench, timed, &best, first);
     for _ in 0..MOST {
         if best.effects.len() < 2 {
             break;
         }
-        let gain = |t: &Trial| Prospect::of(bench, &best, &t.fit).total();
-        let better = (0..best.effects.len())
-            .flat_map(|place| {
-                let mut others = best.effects.clone();
-                let named = others.remove(place).effect.name();
-                let without = refit(problem, &best, others);
-                let wanted = 0.5 * (best.misfit + without.misfit);
-                let mut trials = trials(
-                    problem,
-                    &bench.scale,
-                    timed,
-                    &without,
-                    (Effort::Full, wanted),
-                );
-                trials.retain(|t| t.plausible && t.fit.misfit < wanted && t.cause.name() != named);
-                trials
-            })
-            .map(|t| (gain(&t), t.fit))
-            .filter(|(gain, _)| *gain > ALARM * dispersion(problem, &best))
-            .max_by(|(a, _), (b, _)| a.total_cmp(b));
-        match better {
-            Some((_, fit)) => best = prune(problem, fit, least(problem, baseline)),
-            None => break,
-        }
+        let Some(better) = places::exchanged(bench, &best, &places) else {
+            break;
+        };
+        best = better;
+        places = places::places(bench, timed, &best, first);
     }
-    best
+    let pruned = prune(&bench.train, best.clone(), least);
+    if pruned.effects.len() < best.effects.len() {
+        places = places::places(bench, timed, &pruned, first);
+    }
+    (pruned, places)
 }
 
 /// Drops causes that the others have made needless; `least` is what one has to take away.
@@ -157,53 +175,3 @@ fn prune(problem: &Problem, mut fit: Fit, least: f64) -> Fit {
     }
     fit
 }
-
-/// For each named cause: who else does as well in its place, and what it brings.
-///
-/// `first` are the trials beside the baseline: they are those of a single cause's place.
-fn rivals(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> (Vec<Vec<String>>, Vec<f64>) {
-    let problem = &bench.train;
-    let mut all = Vec::new();
-    let mut evidence = Vec::new();
-    for place in 0..best.effects.len() {
-        let mut others = best.effects.clone();
-        let named = others.remove(place);
-        let without = refit(problem, best, others);
-        let scale = dispersion(problem, best);
-        let brought = without.misfit - best.misfit;
-        evidence.push(brought / scale);
-        let rows = problem.rows() as f64;
-        let left = (best.misfit - rows - SCATTER * (2.0 * rows).sqrt()).max(0.0);
-        let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
-        let as_well = best.misfit + MARGIN * scale + unseen;
-        let wanted = (Effort::Full, as_well);
-        let anew = match best.effects.len() {
-            1 => None,
-            _ => Some(trials(problem, &bench.scale, timed, &without, wanted)),
-        };
-        let rivals = anew
-            .as_deref()
-            .unwrap_or(first)
-            .iter()
-            .filter(|t| t.plausible && t.cause.name() != named.effect.name())
-            .filter(|t| t.fit.misfit < as_well)
-            .map(|t| t.cause.name().to_string())
-            .collect();
-        all.push(rivals);
-    }
-    (all, evidence)
-}
-
-/// Difference of misfit, in noise variances, within which two causes count as equally good: a
-/// likelihood ratio of exp(−5), less than one wrong in a hundred.
-const MARGIN: f64 = 10.0;
-
-/// Share of what the named cause brings by which a rival may fall short of it and still be listed:
-/// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
-/// causes apart no better than their laws are true. What the named cause leaves beyond the scatter of
-/// noise bounds it, for a law that leaves nothing is right, and so does what the test of structure
-/// would not see, [`NEGLIGIBLE`] of the noise.
-pub const NEARLY: f64 = 0.01;
-
-/// Standard deviations by which a sum of squares of noise alone may exceed its mean.
-const SCATTER: f64 = 2.0;

@@ -48,6 +48,27 @@ const TELLING: f64 = 16.0;
 /// predicted worse: its law then goes on differently from the joint's, but nothing else is at work.
 const DOMINANT: f64 = 0.5;
 
+/// Squared error of held-out samples beyond their noise, in noise variances.
+pub fn beyond_unseen(bench: &Bench, fit: &Fit) -> f64 {
+    let predictions = fit.predict(&bench.train);
+    let mut beyond = 0.0;
+    for (k, held) in bench.held.iter().enumerate() {
+        let (_, judged) = bench.whole.channels(k);
+        let noise = &bench.noise[k];
+        let weight = unlike(noise.autoregression);
+        for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+            let error = (judged[i] - predictions[k].judged[i]) / noise.deviation;
+            beyond += weight * (error.powi(2) - 1.0);
+        }
+    }
+    beyond
+}
+
+/// What a sample counts for whose neighbours vary with it.
+fn unlike(autoregression: f64) -> f64 {
+    (1.0 - autoregression) / (1.0 + autoregression)
+}
+
 /// What a larger set of causes does on fitted and on held-out samples, in noise variances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prospect {
@@ -74,9 +95,7 @@ impl Prospect {
         for (k, held) in bench.held.iter().enumerate() {
             let (_, judged) = bench.whole.channels(k);
             let noise = &bench.noise[k];
-            // Neighbours that vary together count as fewer.
-            let a = noise.autoregression;
-            let weight = (1.0 - a) / (1.0 + a) / noise.deviation.powi(2);
+            let weight = unlike(noise.autoregression) / noise.deviation.powi(2);
             for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
                 let (old, new) = (before[k].judged[i], after[k].judged[i]);
                 prospect.held_out +=
@@ -95,9 +114,7 @@ impl Prospect {
     /// False where held-out samples could have shown the set to be better and show it to be worse,
     /// unless it takes most of the misfit away.
     pub fn holds(&self) -> bool {
-        self.held_out > 0.0
-            || self.difference < TELLING
-            || self.dominates()
+        self.held_out > 0.0 || self.difference < TELLING || self.dominates()
     }
 
     /// True where the set takes most of the misfit beyond noise away, held-out samples included.

@@ -66,7 +66,8 @@ pub(super) fn moved(effects: &[Acting], slopes: &[Slope], moves: &[f64]) -> Vec<
     moved
 }
 
-/// Takes out of the unknowns what would leave its bounds at once; true where there is such a one.
+/// Takes out of the unknowns what would leave its bounds, or its side, at once; true where there is
+/// such a one.
 pub(super) fn hold(
     normal: &mut Normal,
     effects: &[Acting],
@@ -79,7 +80,11 @@ pub(super) fn hold(
         let parameter = &effects[slope.effect].effect.parameters()[slope.parameter];
         let value = effects[slope.effect].values[slope.parameter];
         let outward = step * slope.unit;
-        if value <= parameter.lower && outward < 0.0 || value >= parameter.upper && outward > 0.0 {
+        let acting = effects[slope.effect].effect;
+        let across = acting.keeps_side(slope.parameter) && value * (value + outward) < 0.0;
+        let below = value <= parameter.lower && outward < 0.0;
+        let above = value >= parameter.upper && outward > 0.0;
+        if across || below || above {
             normal.hold(first + k);
             held = true;
         }

@@ -106,6 +106,11 @@ pub trait Effect: Send + Sync {
     fn place(&self) -> Place;
     /// Glossary of its parameters.
     fn parameters(&self) -> &'static [Parameter];
+    /// True where the sign of a value tells a side: what is on the other side of zero is another
+    /// model, and no small step leads there.
+    fn keeps_side(&self, _parameter: usize) -> bool {
+        false
+    }
     /// Count of numbers of history it keeps.
     fn memory(&self) -> usize {
         0

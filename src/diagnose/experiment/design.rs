@@ -8,7 +8,7 @@ use super::program::{Block, Rig};
 use super::separability::{TOLD, swept};
 use super::shape::{Shape, columns, products, shapes};
 use crate::causes::{Cause, Scale};
-use crate::diagnose::search::NEARLY;
+use crate::diagnose::places::NEARLY;
 use crate::diagnose::verdict::NEGLIGIBLE;
 use crate::identify::{Fit, Form, Prepared, Problem, refit};
 use crate::joint::effect::Acting;

@@ -1,0 +1,116 @@
+//! The place of each cause in a set of several: who else would do there, beside the others.
+
+use super::prepare::Bench;
+use super::tested::{Prospect, beyond_unseen};
+use super::trials::{ALARM, Effort, Trial, dispersion, trials};
+use super::verdict::NEGLIGIBLE;
+use crate::identify::{Fit, Problem, refit};
+use crate::joint::effect::Acting;
+
+/// One cause's place.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// Name of the cause that has it.
+    named: &'static str,
+    /// Misfit that the named cause takes away beside the others.
+    pub brought: f64,
+    /// Every cause tried there; refits end where they have no prospect of doing as well.
+    trials: Vec<Trial>,
+}
+
+/// The places of a set, in the order of its effects; `first` are the trials beside the baseline, which
+/// are those of a single cause's place.
+pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Place> {
+    let problem = &bench.train;
+    (0..best.effects.len())
+        .map(|place| {
+            let mut others = best.effects.clone();
+            let named = others.remove(place).effect.name();
+            let without = alone(problem, best, others, first);
+            let brought = without.misfit - best.misfit;
+            let wanted = as_well(problem, best, brought)
+                .max(best.misfit + beyond_unseen(bench, best).max(0.0));
+            let trials = match best.effects.len() {
+                1 => first.to_vec(),
+                _ => trials(
+                    problem,
+                    &bench.scale,
+                    timed,
+                    &without,
+                    (Effort::Full, wanted),
+                ),
+            };
+            Place {
+                named,
+                brought,
+                trials,
+            }
+        })
+        .collect()
+}
+
+/// The refit of what remains of a set; a single cause that did better when it was tried alone stays as
+/// it was then: beside the others it may have taken a part that is not its own.
+fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]) -> Fit {
+    let before = match others.as_slice() {
+        [one] => first.iter().find(|t| t.cause.name() == one.effect.name()),
+        _ => None,
+    };
+    let anew = refit(problem, best, others);
+    match before {
+        Some(trial) if trial.fit.misfit < anew.misfit => trial.fit.clone(),
+        _ => anew,
+    }
+}
+
+/// The set with one cause exchanged for another that lowers the squared error most, held-out samples
+/// included: a cause was chosen before those that came after it were known.
+pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<Fit> {
+    let least = ALARM * dispersion(&bench.train, best);
+    places
+        .iter()
+        .flat_map(Place::others)
+        .map(|t| (Prospect::of(bench, best, &t.fit).total(), &t.fit))
+        .filter(|(gain, _)| *gain > least)
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, fit)| fit.clone())
+}
+
+impl Place {
+    fn others(&self) -> impl Iterator<Item = &Trial> {
+        let other = |t: &&Trial| t.plausible && t.cause.name() != self.named;
+        self.trials.iter().filter(other)
+    }
+
+    /// Who does as well as the named cause, best first.
+    pub fn rivals(&self, problem: &Problem, best: &Fit) -> Vec<String> {
+        let as_well = as_well(problem, best, self.brought);
+        self.others()
+            .filter(|t| t.fit.misfit < as_well)
+            .map(|t| t.cause.name().to_string())
+            .collect()
+    }
+}
+
+/// Misfit below which a cause counts as good as the one named, which has `brought` so much.
+fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
+    let scale = dispersion(problem, best);
+    let rows = problem.rows() as f64;
+    let left = (best.misfit - rows - SCATTER * (2.0 * rows).sqrt()).max(0.0);
+    let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
+    best.misfit + MARGIN * scale + unseen
+}
+
+/// Difference of misfit, in noise variances, within which two causes count as equally good: a
+/// likelihood ratio of exp(−5), less than one wrong in a hundred.
+const MARGIN: f64 = 10.0;
+
+/// Share of what the named cause brings by which a rival may fall short of it and still be listed:
+/// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
+/// causes apart no better than their laws are true. What the named cause leaves beyond the scatter of
+/// noise bounds it, for a law that leaves nothing is right, and so does what the test of structure
+/// would not see, [`NEGLIGIBLE`] of the noise.
+pub const NEARLY: f64 = 0.01;
+
+/// Standard deviations by which a sum of squares of noise alone may exceed its mean.
+pub const SCATTER: f64 = 2.0;
