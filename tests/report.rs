@@ -179,6 +179,7 @@ fn explained() -> Findings {
             interval: Some((0.21, 0.29)),
         }],
         unexplained: Unexplained {
+            doubles: vec![],
             share: 0.02,
             places: vec!["record bolt-2, cycles 4–6, just after reversals".to_owned()],
         },
@@ -247,6 +248,7 @@ fn unexplained() -> Findings {
         baseline: explained().baseline,
         extended: explained().baseline,
         unexplained: Unexplained {
+            doubles: vec![],
             share: 1.0,
             places: vec!["record bolt-1, all cycles, at the largest force".to_owned()],
         },

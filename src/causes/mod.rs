@@ -24,7 +24,7 @@ mod static_friction_drop;
 mod velocity_weakening;
 mod viscous_damping;
 
-use crate::joint::effect::Effect;
+use crate::joint::effect::{Effect, Trajectory};
 
 /// Whether a cause belongs to the joint (exported) or to the measuring chain (removed).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,6 +91,11 @@ pub trait Cause: Effect {
     /// in different ranges.
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {
         true
+    }
+    /// What is not in the catalogue and would leave the same trace in a test that went like this; the
+    /// cause is named then, and not taken for the whole explanation.
+    fn double(&self, _values: &[f64], _truth: &Trajectory) -> Option<&'static str> {
+        None
     }
     /// True where the cause depends on time, so that a record without time cannot show it.
     fn needs_time(&self) -> bool {

@@ -59,17 +59,25 @@ impl Effect for OffsetStep {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let [height, jump, sharpness] = [values[0], values[1], values[2]];
-        let (Some(start), Some(end)) = (truth.time.first(), truth.time.last()) else {
+        let Some((middle, width)) = jump(values, truth) else {
             return Vec::new();
         };
-        let sample = (end - start) / truth.time.len() as f64;
-        let length = (end - start) * exp(-sharpness);
-        let width = hypot(length, sample).max(f64::MIN_POSITIVE);
-        let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - start - jump) / width);
-        truth.time.iter().map(|t| height * share(t)).collect()
+        let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - middle) / width);
+        truth.time.iter().map(|t| values[0] * share(t)).collect()
     }
 }
+
+/// Time of the middle of the jump and its length \[s\]; `None` in a record without samples.
+fn jump(values: &[f64], truth: &Trajectory) -> Option<(f64, f64)> {
+    let (start, end) = (truth.time.first()?, truth.time.last()?);
+    let sample = (end - start) / truth.time.len() as f64;
+    let length = (end - start) * exp(-values[2]);
+    let width = hypot(length, sample).max(f64::MIN_POSITIVE);
+    Some((start + values[1], width))
+}
+
+/// Rise of the highest force yet, as a share of the highest of all, that a specimen may settle under.
+const HIGHER: f64 = 0.03;
 
 impl Cause for OffsetStep {
     fn page(&self) -> Page {
@@ -87,6 +95,19 @@ impl Cause for OffsetStep {
     }
     fn needs_time(&self) -> bool {
         true
+    }
+    /// A specimen that settles does so while the force is higher than it ever was.
+    fn double(&self, values: &[f64], truth: &Trajectory) -> Option<&'static str> {
+        let (middle, width) = jump(values, truth)?;
+        let peak_until = |end: f64| {
+            let until = truth.time.iter().zip(&truth.force);
+            until
+                .take_while(|(t, _)| **t <= end)
+                .fold(0.0_f64, |peak, (_, f)| peak.max(f.abs()))
+        };
+        let (before, after) = (peak_until(middle - width), peak_until(middle + width));
+        (after - before > HIGHER * peak_until(f64::INFINITY))
+            .then_some("the force was higher than ever before when the reading jumped, so the specimen may have settled")
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         (0..8)
@@ -121,5 +142,19 @@ mod tests {
                 .channel(&[2.0, 4.0, 16.0], &Trajectory::default())
                 .is_empty()
         );
+    }
+
+    /// A jump while the force passes its highest value yet has a double, one at a lower peak later has none.
+    #[test]
+    fn a_jump_under_a_new_highest_force_may_be_a_specimen_that_settles() {
+        let time: Vec<f64> = (0..801).map(|i| 0.01 * f64::from(i)).collect();
+        let force = time.iter().map(|t| (std::f64::consts::TAU * t).sin());
+        let truth = Trajectory {
+            force: force.collect(),
+            displacement: vec![0.0; 801],
+            time,
+        };
+        assert!(OffsetStep.double(&[1e-6, 0.2, 6.0], &truth).is_some());
+        assert_eq!(OffsetStep.double(&[1e-6, 5.2, 6.0], &truth), None);
     }
 }

@@ -32,6 +32,7 @@ use structure::structure;
 use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit};
 use crate::joint::JointError;
+use crate::joint::effect::Acting;
 use crate::record::Record;
 use crate::record::thinned::thinned;
 
@@ -140,9 +141,12 @@ fn assemble(
         true => (structure_after.share / structure_before.share).min(1.0),
         false => 0.0,
     };
+    let doubles = doubles(bench, &whole);
     let verdict = verdict::verdict(
         named.then(|| {
-            gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0 && !bench.noise_may_be_structure()
+            gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
+                && !bench.noise_may_be_structure()
+                && doubles.is_empty()
         }),
         &structure_before,
         &structure_after,
@@ -187,6 +191,7 @@ fn assemble(
                 Verdict::Clean | Verdict::Explained => Vec::new(),
                 _ => words::places(bench, &structure_after),
             },
+            doubles,
         },
         not_identifiable: words::not_identifiable(records),
         next_experiment: None,
@@ -199,6 +204,18 @@ fn assemble(
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
     Ok((findings, found, whole))
+}
+
+/// What is not in the catalogue and may be there in place of a named cause.
+fn doubles(bench: &Bench, whole: &Fit) -> Vec<String> {
+    let predictions = whole.predict(&bench.whole);
+    let double = |acting: &Acting| {
+        let cause = find(acting.effect.name())?;
+        let mut tests = predictions.iter();
+        let clause = tests.find_map(|p| cause.double(&acting.values, &p.truth))?;
+        Some(format!("{}: {clause}", cause.name()))
+    };
+    whole.effects.iter().filter_map(double).collect()
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {

@@ -25,6 +25,11 @@ pub fn summary(findings: &Findings) -> String {
         Verdict::Explained => format!(
             "{names} explains what the baseline gets wrong: the held-out error falls to {ratio:.2} of the baseline's and only noise is left."
         ),
+        Verdict::PartlyExplained if !findings.unexplained.doubles.is_empty() => format!(
+            "{}; perhaps it is something that is not in the catalogue ({}).",
+            partly(&names, ratio, findings.gain.1),
+            findings.unexplained.doubles.join("; ")
+        ),
         Verdict::PartlyExplained => format!(
             "{}; structure beyond the noise remains ({:.0} % of it).",
             partly(&names, ratio, findings.gain.1),

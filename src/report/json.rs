@@ -42,6 +42,7 @@ pub fn render(findings: &Findings) -> Value {
         "unexplained": {
             "share": number(findings.unexplained.share),
             "where": findings.unexplained.places,
+            "perhaps_instead": findings.unexplained.doubles,
             "correction": findings.outlook.correction.as_ref().map(correction),
         },
         "not_identifiable": findings.not_identifiable,

@@ -58,6 +58,10 @@ pub(super) fn verdict_sentence(findings: &Findings) -> String {
             "The baseline joint explains the record to the noise; {causes} can be seen and does not matter."
         ),
         (Verdict::Explained, _) => format!("With {causes} only noise is left."),
+        (Verdict::PartlyExplained, _) if !findings.unexplained.doubles.is_empty() => format!(
+            "{causes} may be something else that is not in the catalogue ({}).",
+            findings.unexplained.doubles.join("; ")
+        ),
         (Verdict::PartlyExplained, _) => {
             format!("With {causes} a part is explained; structure beyond the noise remains.")
         }

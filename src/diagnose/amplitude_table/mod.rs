@@ -298,6 +298,7 @@ impl<'a> Search<'a> {
             levels: compared(self.levels, tables, baseline, &self.model),
             left_out: Vec::new(),
             unexplained: Unexplained {
+                doubles: Vec::new(),
                 share: match verdict {
                     Verdict::Clean => 0.0,
                     _ if beyond(&before) > 0.0 => (beyond(&after) / beyond(&before)).min(1.0),
