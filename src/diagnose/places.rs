@@ -51,7 +51,7 @@ pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Pl
 
 /// The refit of what remains of a set; a single cause that did better when it was tried alone stays as
 /// it was then: beside the others it may have taken a part that is not its own.
-fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]) -> Fit {
+pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]) -> Fit {
     let before = match others.as_slice() {
         [one] => first.iter().find(|t| t.cause.name() == one.effect.name()),
         _ => None,

@@ -5,7 +5,7 @@ use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::{Prospect, tested};
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
-use crate::identify::{Fit, Problem, refit};
+use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
 /// the named cause's law being only nearly right.
@@ -100,7 +100,7 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
         first.get_or_insert(trials);
         match next {
             Some(fit) if round == 1 => current = fit,
-            Some(fit) => current = prune(problem, fit, least),
+            Some(fit) => current = prune(problem, fit, least, first.as_deref().unwrap_or_default()),
             None => break,
         }
     }
@@ -147,7 +147,7 @@ fn settled(
         best = better;
         places = places::places(bench, timed, &best, first);
     }
-    let pruned = prune(&bench.train, best.clone(), least);
+    let pruned = prune(&bench.train, best.clone(), least, first);
     if pruned.effects.len() < best.effects.len() {
         places = places::places(bench, timed, &pruned, first);
     }
@@ -155,13 +155,13 @@ fn settled(
 }
 
 /// Drops causes that the others have made needless; `least` is what one has to take away.
-fn prune(problem: &Problem, mut fit: Fit, least: f64) -> Fit {
+fn prune(problem: &Problem, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
     while fit.effects.len() > 1 {
         let without: Option<Fit> = (0..fit.effects.len())
             .map(|drop| {
                 let mut effects = fit.effects.clone();
                 effects.remove(drop);
-                refit(problem, &fit, effects)
+                places::alone(problem, &fit, effects, first)
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
