@@ -10,8 +10,11 @@ use crate::identify::{Fit, refit};
 /// A single cause has to lower the held-out error or most of the misfit. Every one of several has to
 /// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
 /// causes, the more ways to mend by one what another's law is wrong about. One that takes most of
-/// the misfit away stays: what happens once, or at one rate, few held-out cycles show.
+/// the misfit away, and a substantial part of the baseline's, stays: what happens once, or at one rate,
+/// few held-out cycles show.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
+    let beyond = baseline.misfit - bench.train.rows() as f64;
+    let substantial = SUBSTANTIAL * beyond;
     while fit.effects.len() > 1 {
         let after = fit.predict(&bench.train);
         let weakest = (0..fit.effects.len())
@@ -20,7 +23,8 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
                 others.remove(place);
                 let less = refit(&bench.train, &fit, others);
                 let (value, interval) = ratio(bench, &less.predict(&bench.train), &after);
-                let upper = match Prospect::of(bench, &less, &fit).dominates() {
+                let prospect = Prospect::of(bench, &less, &fit);
+                let upper = match prospect.dominates() && prospect.fitted > substantial {
                     true => 0.0,
                     false => interval.map_or(value, |(_, upper)| upper),
                 };
@@ -68,6 +72,9 @@ pub fn beyond_unseen(bench: &Bench, fit: &Fit) -> f64 {
 fn unlike(autoregression: f64) -> f64 {
     (1.0 - autoregression) / (1.0 + autoregression)
 }
+
+/// Share of the baseline's misfit beyond noise that no other cause's law is wrong by.
+const SUBSTANTIAL: f64 = 1.0 / 3.0;
 
 /// What a larger set of causes does on fitted and on held-out samples, in noise variances.
 #[derive(Debug, Clone, Copy, PartialEq)]
