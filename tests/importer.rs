@@ -64,8 +64,8 @@ fn exported_as(version: &str, name: &str, causes: &str, drive: &str) -> PathBuf 
     folder
 }
 
-/// Either version in the importer: the same answers as `iwan simulate`, a saved state that continues
-/// where the importer has saved states, and the same run after a reset.
+/// Either version in its importer: the same answers as `iwan simulate`, a saved state that continues,
+/// and the same run after a reset.
 #[test]
 fn the_importer_gives_what_the_simulation_gives() {
     let joints = [("plain", "[]"), ("with causes", CAUSES)];
@@ -85,13 +85,8 @@ fn the_importer_gives_what_the_simulation_gives() {
         assert_eq!(found["reset_repeats"], true);
         let text = fine(&folder, &["check", "joint.fmu"]);
         assert!(text.contains("agrees with its joint"), "{text}");
-        if version == "2" {
-            assert_eq!(found["state_continues"], true);
-        } else {
-            // The `fmi` crate has no saved states of FMI 3.0; that is said.
-            assert_eq!(found["state_continues"], Value::Null);
-            assert!(text.contains("Saved states were not tried"), "{text}");
-        }
+        assert_eq!(found["state_continues"], true);
+        assert!(text.contains("A saved state continues"), "{text}");
         let differences = found["differences"].as_array().expect("a list");
         assert_eq!(differences.len(), 6);
         for difference in differences {
@@ -268,6 +263,14 @@ fn an_archive_whose_parts_disagree_is_refused() {
         let name = (DESCRIPTION, "name=\"dissipation\"", "name=\"loss\"");
         let told = refused(&folder, "name.fmu", name, NO_ENTRY);
         assert!(told.contains("variable loss: the joint has none"), "{told}");
+        // What `iwan` itself does not look at.
+        let role = (
+            DESCRIPTION,
+            "variability=\"fixed\"",
+            "variability=\"continuous\"",
+        );
+        let told = refused(&folder, "role.fmu", role, NO_ENTRY);
+        assert!(told.contains("Illegal combination of causality"), "{told}");
         let page = "documentation/index.html";
         let told = refused(&folder, "page.fmu", NO_CHANGE, page);
         assert!(told.contains(&format!("{page} is missing")), "{told}");

@@ -121,10 +121,10 @@ def fmu_runner(archive: Path, folder: Path, reference: np.ndarray) -> Cell:
     return compared(np.loadtxt(out), float(told), reference)
 
 
-def fmi_crate(iwan: Path, archive: Path, folder: Path) -> Cell:
-    """Difference by `iwan check`, which loads the unit through the `fmi` crate."""
+def by_check(iwan: Path, archive: Path, folder: Path) -> Cell:
+    """Difference by `iwan check`, which loads the unit through a crate of others."""
     command = [iwan, "check", archive, folder / "load.csv", "--json"]
-    failed, told = run(command, folder / f"fmi-{archive.stem}.log")
+    failed, told = run(command, folder / f"check-{archive.stem}.log")
     if failed:
         return Cell(failed, False)
     apart = max(d["relative_difference"] for d in json.loads(told)["differences"])
@@ -216,8 +216,9 @@ class Table:
             )
             cells.append(self.told(theirs, lambda: in_python(name, theirs, folder, reference)))  # noqa: B023
             self.rows.append((f"{name} {version}", cells))
-        checks = [fmi_crate(iwan, archive, folder) for archive in (two, three)]
-        name = f"`fmi` crate {crate_version('fmi')} (`iwan check`)"
+        checks = [by_check(iwan, archive, folder) for archive in (two, three)]
+        crates = " and ".join(f"`{name}` {crate_version(name)}" for name in ("fmi", "fmi-rs"))
+        name = f"crates {crates} (`iwan check`)"
         self.rows.append((name, [*checks, Cell("not run: reads joint.json")]))
         if not self.quick:
             cells = [fmu_runner(two, folder, reference), Cell("knows FMI 2.0 alone")]

@@ -1,6 +1,7 @@
 //! What the archive's folder `resources` holds: the joint.
 
 use super::location;
+use super::logger::Standard;
 use super::refusal::Refusal;
 use crate::joint::{Drive, Joint};
 use crate::saved;
@@ -19,10 +20,12 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// Reads `joint.json` at the location and holds the GUID of the XML against it.
-    pub fn read(location: &str, came: &str) -> Result<Bundle, Refusal> {
-        let (path, text) = joint_json(location)?;
+    /// Reads `joint.json` at the location and holds the GUID of the XML against it; refusals name
+    /// the arguments as the host's standard does.
+    pub fn read(standard: Standard, location: &str, came: &str) -> Result<Bundle, Refusal> {
+        let (path, text) = joint_json(standard.resources(), location)?;
         let drive = drive_of(&text, came).ok_or_else(|| Refusal::WrongGuid {
+            argument: standard.token(),
             force_driven: guid(&text, Drive::Force),
             displacement_driven: guid(&text, Drive::Displacement),
             came: came.to_owned(),
@@ -37,9 +40,10 @@ impl Bundle {
 }
 
 /// Path and text of the first `joint.json` that can be read.
-fn joint_json(location: &str) -> Result<(PathBuf, String), Refusal> {
-    let mut refusal = Refusal::NoLocation;
-    for folder in location::folders(location)? {
+fn joint_json(argument: &'static str, location: &str) -> Result<(PathBuf, String), Refusal> {
+    let mut refusal = Refusal::NoLocation { argument };
+    let folders = location::folders(location);
+    for folder in folders.map_err(|error| Refusal::Location { argument, error })? {
         let path = folder.join("joint.json");
         match std::fs::read_to_string(&path) {
             Ok(text) => return Ok((path, text)),

@@ -5,7 +5,7 @@ use super::c_types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE
 use super::calls;
 use super::entry::{call, stop};
 use super::instance::Instance;
-use super::logger::{Category, Host, Messenger};
+use super::logger::{Category, Host, Messenger, Standard};
 use super::pointers;
 use super::refusal::Refusal;
 use crate::variables::STAMP;
@@ -70,10 +70,10 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let texts = || unsafe {
         Ok(Texts {
             name: pointers::text("instanceName", name)?,
-            guid: pointers::text("fmuGUID", guid)?,
-            location: match resource_location.is_null() {
-                true => return Err(Refusal::NoLocation),
-                false => pointers::text("fmuResourceLocation", resource_location)?,
+            guid: pointers::text(Standard::Two.token(), guid)?,
+            location: match (resource_location.is_null(), Standard::Two.resources()) {
+                (true, argument) => return Err(Refusal::NoLocation { argument }),
+                (false, argument) => pointers::text(argument, resource_location)?,
             },
         })
     };
@@ -100,7 +100,7 @@ fn instance(fmu_type: Type, texts: Texts, host: Host, debug: bool) -> Result<Ins
     if fmu_type != CO_SIMULATION {
         return Err(Refusal::NotCoSimulation { came: fmu_type });
     }
-    let bundle = Bundle::read(texts.location, texts.guid)?;
+    let bundle = Bundle::read(Standard::Two, texts.location, texts.guid)?;
     let instance = Instance::new(bundle, texts.name, host, debug)?;
     instance.tell(&format!("instantiated from {STAMP}"));
     Ok(instance)

@@ -1,5 +1,5 @@
-//! `fmuResourceLocation` → folders to look in. Hosts disagree about its form, so all that were seen
-//! are understood.
+//! Where the host says that the resources are → folders to look in. Hosts disagree about its form, so
+//! all that were seen are understood.
 
 use std::path::PathBuf;
 
@@ -7,49 +7,47 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LocationError {
     /// A scheme other than `file`.
-    #[error("fmuResourceLocation: expected a file: URI or a path, came `{came}`")]
+    #[error("expected a file: URI or a path, came `{came}`")]
     Scheme {
         /// The location as it came.
         came: String,
     },
     /// Another machine.
-    #[error(
-        "fmuResourceLocation: expected this machine (`localhost` or nothing), came host `{host}`"
-    )]
+    #[error("expected this machine (`localhost` or nothing), came host `{host}`")]
     Host {
         /// Authority of the URI.
         host: String,
     },
     /// Nothing after the scheme.
-    #[error("fmuResourceLocation: expected the folder `resources`, came an empty path")]
+    #[error("expected the folder `resources`, came an empty path")]
     Empty,
 }
 
-/// Folders that the location may mean, most likely first: percent-encoded as the standard asks,
-/// and raw as some hosts send it.
+/// Folders that the location may mean, most likely first: a URI percent-encoded as the standard asks,
+/// then raw as some hosts send it; a path, which FMI 3.0 asks for, raw, then as if it were encoded.
 ///
 /// Understood: `file:///p`, `file:////p`, `file:/p`, `file://localhost/p`, `/p`, each with or
 /// without a trailing slash, and `file:///C:/p`.
 pub fn folders(location: &str) -> Result<Vec<PathBuf>, LocationError> {
-    let path = match location.split_once(':') {
-        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => path_of_uri(rest)?,
+    let (path, is_uri) = match location.split_once(':') {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => (path_of_uri(rest)?, true),
         // A single letter is a drive of Windows, not a scheme.
         Some((scheme, _)) if scheme.len() > 1 && !scheme.contains(['/', '\\']) => {
             return Err(LocationError::Scheme {
                 came: location.to_owned(),
             });
         }
-        _ => location,
+        _ => (location, false),
     };
     if path.is_empty() {
         return Err(LocationError::Empty);
     }
     let raw = PathBuf::from(path);
-    let mut folders: Vec<_> = decoded(path).map(PathBuf::from).into_iter().collect();
-    if !folders.contains(&raw) {
-        folders.push(raw);
-    }
-    Ok(folders)
+    Ok(match decoded(path).map(PathBuf::from) {
+        Some(decoded) if decoded != raw && is_uri => vec![decoded, raw],
+        Some(decoded) if decoded != raw => vec![raw, decoded],
+        _ => vec![raw],
+    })
 }
 
 /// Path of what follows `file:`.
@@ -134,6 +132,8 @@ mod tests {
         );
         let both = folders("file:///a/%41/r").unwrap();
         assert_eq!(both, [PathBuf::from("/a/A/r"), PathBuf::from("/a/%41/r")]);
+        let path = folders("/a/%41/r").unwrap();
+        assert_eq!(path, [PathBuf::from("/a/%41/r"), PathBuf::from("/a/A/r")]);
     }
 
     #[test]

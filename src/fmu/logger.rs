@@ -47,6 +47,22 @@ impl Standard {
             Standard::Three => "Float64",
         }
     }
+
+    /// Name of the argument that binds XML and joint.
+    pub fn token(self) -> &'static str {
+        match self {
+            Standard::Two => "fmuGUID",
+            Standard::Three => "instantiationToken",
+        }
+    }
+
+    /// Name of the argument that tells where the folder `resources` is.
+    pub fn resources(self) -> &'static str {
+        match self {
+            Standard::Two => "fmuResourceLocation",
+            Standard::Three => "resourcePath",
+        }
+    }
 }
 
 /// Where messages go: one logger per version of the standard, each of which may be NULL.

@@ -35,23 +35,27 @@ pub enum Refusal {
     NotCoSimulation { came: i32 },
     /// XML and joint from different exports.
     #[error(
-        "fmuGUID: expected {force_driven} or {displacement_driven}, as resources/joint.json says, \
+        "{argument}: expected {force_driven} or {displacement_driven}, as resources/joint.json says, \
          came {came}: the archive's parts belong to different exports"
     )]
     WrongGuid {
+        argument: &'static str,
         force_driven: String,
         displacement_driven: String,
         came: String,
     },
     /// No location.
     #[error(
-        "fmuResourceLocation: expected the URI of the folder `resources`, came NULL: the joint is \
-         in resources/joint.json"
+        "{argument}: expected where the folder `resources` is, came NULL: the joint is in \
+         resources/joint.json"
     )]
-    NoLocation,
+    NoLocation { argument: &'static str },
     /// A location that is not understood.
-    #[error(transparent)]
-    Location(#[from] LocationError),
+    #[error("{argument}: {error}")]
+    Location {
+        argument: &'static str,
+        error: LocationError,
+    },
     /// joint.json is not there or not readable.
     #[error("expected the joint in {path}, came: {error}")]
     Unreadable {
@@ -140,6 +144,6 @@ pub enum Refusal {
     #[error("size: expected at least {expected} bytes, came {came}")]
     Buffer { expected: usize, came: usize },
     /// A panic that was held: a defect of this library.
-    #[error("a defect in the joint's library was held: {message}; the instance needs fmi2Reset")]
+    #[error("a defect in the joint's library was held: {message}; the instance needs a reset")]
     Defect { message: String },
 }

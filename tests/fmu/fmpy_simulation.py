@@ -157,6 +157,27 @@ def simulate_fmu_gives_what_iwan_simulate_gives(unit: Unit) -> None:
     close({name: result[name] for name in COLUMNS}, expected)
 
 
+def stops_where_it_is_told(archive: Path) -> None:
+    """At a stop time that no step divides, and where the host ends the run early."""
+    for stop, step in ((0.7, 1.0 / 3.0), (1.0, 0.03), (1.0, 3.0), (2.0, 1e-3 / 3.0)):
+        for told in (True, False):
+            result = simulate_fmu(
+                str(archive), stop_time=stop, output_interval=step, set_stop_time=told
+            )
+            assert result["time"][-1] == stop, (stop, step, told, result["time"][-1])
+    early = simulate_fmu(
+        str(archive),
+        stop_time=1.0,
+        output_interval=0.01,
+        step_finished=lambda time, _: time < 0.205,
+    )
+    assert 0.2 < early["time"][-1] < 0.22, early["time"][-1]
+
+
+def a_run_stops_where_it_is_told(unit: Unit) -> None:
+    stops_where_it_is_told(unit.archive)
+
+
 def the_step_does_not_matter_to_a_joint_without_rates(unit: Unit) -> None:
     """Between two rows the load is straight: tenth parts of the steps change nothing."""
     load = unit.load()
@@ -300,6 +321,7 @@ CHECKS = [
     fmpy_finds_no_fault,
     steps_give_what_iwan_simulate_gives,
     simulate_fmu_gives_what_iwan_simulate_gives,
+    a_run_stops_where_it_is_told,
     the_step_does_not_matter_to_a_joint_without_rates,
     a_state_continues_in_place_and_in_a_fresh_instance,
     reset_starts_anew,

@@ -12,7 +12,7 @@ import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
-from fmpy_simulation import COLUMNS, Unit, close, columns
+from fmpy_simulation import COLUMNS, Unit, close, columns, stops_where_it_is_told
 
 ENTRIES = {
     "modelDescription.xml",
@@ -161,6 +161,10 @@ def simulate_fmu_gives_what_fmi_2_gives(pair: Pair) -> None:
     close(found, expected)
 
 
+def a_run_stops_where_it_is_told(pair: Pair) -> None:
+    stops_where_it_is_told(pair.archive)
+
+
 def variables_are_those_of_fmi_2_and_time(pair: Pair) -> None:
     for name, variable in pair.two.variables.items():
         here = pair.variables[name]
@@ -293,6 +297,7 @@ CHECKS = [
     the_terminal_joins_input_and_answer,
     both_versions_give_the_same,
     simulate_fmu_gives_what_fmi_2_gives,
+    a_run_stops_where_it_is_told,
     variables_are_those_of_fmi_2_and_time,
     start_values_of_the_xml_are_those_of_the_library,
     a_state_goes_from_one_version_to_the_other,

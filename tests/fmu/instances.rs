@@ -41,7 +41,11 @@ fn every_wrong_argument_is_told() {
         "fmuGUID: expected a pointer, came NULL",
     );
     let guid = Some(c"another".to_owned());
-    refused(&Instantiate { guid, ..fine() }, "came another");
+    let expected = format!(
+        "fmuGUID: expected {} or ",
+        iwan::variables::guid(BOLT, Drive::Force)
+    );
+    refused(&Instantiate { guid, ..fine() }, &expected);
     refused(
         &Instantiate {
             location: None,
@@ -55,7 +59,10 @@ fn every_wrong_argument_is_told() {
         "/nowhere/at/all/joint.json",
     );
     let location = Some(c"http://a/b".to_owned());
-    refused(&Instantiate { location, ..fine() }, "expected a file: URI");
+    refused(
+        &Instantiate { location, ..fine() },
+        "fmuResourceLocation: expected a file: URI",
+    );
     let location = Some(CString::new([0xff_u8, 0xfe]).unwrap());
     refused(&Instantiate { location, ..fine() }, "expected UTF-8");
 }

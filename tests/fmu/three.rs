@@ -176,8 +176,12 @@ fn instances_that_cannot_be_are_refused() {
         assert!(told.starts_with("fmi3InstantiateCoSimulation: "), "{told}");
         assert!(told.contains(expected), "{told}");
     };
+    let another = format!(": instantiationToken: expected {token} or ");
+    refused("another", Some(&path), false, &another);
     refused("another", Some(&path), false, "came another");
-    refused(&token, None, false, "the joint is in resources/joint.json");
+    refused(&token, None, false, ": resourcePath: expected where ");
+    let uri = Some("http://a/b");
+    refused(&token, uri, false, ": resourcePath: expected a file: URI");
     refused(&token, Some("/nowhere/at/all/"), false, "/nowhere/at/all");
     refused(&token, Some(&path), true, "hasEventMode");
     let slash = format!("{path}/");

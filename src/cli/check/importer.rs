@@ -1,7 +1,8 @@
-//! An archive behind the `fmi` crate's importer, of FMI 2.0 or 3.0.
+//! An archive behind an independent importer: of FMI 2.0 behind the `fmi` crate, of FMI 3.0 behind
+//! `fmi-rs`.
 
 mod import;
-mod reduced;
+mod run;
 mod three;
 mod two;
 mod unit;
@@ -15,11 +16,11 @@ use crate::joint::{Drive, Joint, Output, Simulation};
 use crate::saved;
 use crate::variables::{Causality, Place, Signal, Variable, Variables, drive_of};
 use import::Import;
+use run::{Driven, Run};
 use std::path::Path;
-use unit::{Refused, Unit};
+use unit::Refused;
 
 /// An archive, unpacked and read.
-#[derive(Debug)]
 pub struct Archive {
     import: Import,
     shown: String,
@@ -89,8 +90,7 @@ impl Archive {
         self.drive
     }
 
-    /// Runs archive and joint side by side. Halfway the archive's state is saved, serialized, and
-    /// the second half is run twice from it; at the end the unit is reset and runs once more.
+    /// Runs archive and joint side by side; the archive as [`Driven::run`] has it.
     ///
     /// # Errors
     /// [`BadInput`] where the archive refuses a call; [`crate::joint::JointError`] where the joint
@@ -133,83 +133,16 @@ impl Archive {
 
     fn run(&self, load: &Load) -> Result<Run, Refused> {
         let mut unit = self.import.instance()?;
-        let unit = unit.as_mut();
-        let half = (load.time.len() / 2).max(1);
-        let mut rows = self.first_half(unit, load, half)?;
-        let state = unit.save()?;
-        let second = self.second_half(unit, load, half)?;
-        let state_continues = match state {
-            Some(bytes) => {
-                unit.restore(&bytes)?;
-                Some(same(&second, &self.second_half(unit, load, half)?))
-            }
-            None => None,
+        let answers = self.answers.iter();
+        let references: Vec<_> = answers.map(|(_, answer)| answer.reference).collect();
+        let driven = Driven {
+            unit: unit.as_mut(),
+            load,
+            input: self.input,
+            answers: &references,
         };
-        rows.extend(second);
-        unit.reset()?;
-        let mut again = self.first_half(unit, load, half)?;
-        again.extend(self.second_half(unit, load, half)?);
-        let reset_repeats = same(&rows, &again);
-        Ok(Run {
-            rows,
-            state_continues,
-            reset_repeats,
-        })
+        driven.run()
     }
-
-    fn first_half(
-        &self,
-        unit: &mut dyn Unit,
-        load: &Load,
-        half: usize,
-    ) -> Result<Vec<Vec<f64>>, Refused> {
-        unit.start(load.time[0], self.input, load.input[0])?;
-        let mut rows = vec![self.read(unit)?];
-        for row in 1..half {
-            rows.push(self.step(unit, load, row)?);
-        }
-        Ok(rows)
-    }
-
-    fn second_half(
-        &self,
-        unit: &mut dyn Unit,
-        load: &Load,
-        half: usize,
-    ) -> Result<Vec<Vec<f64>>, Refused> {
-        (half..load.time.len())
-            .map(|row| self.step(unit, load, row))
-            .collect()
-    }
-
-    /// One step to the time of a row, under the input of that row.
-    fn step(&self, unit: &mut dyn Unit, load: &Load, row: usize) -> Result<Vec<f64>, Refused> {
-        let (from, to) = (load.time[row - 1], load.time[row]);
-        unit.set(self.input, load.input[row])?;
-        unit.step(from, to - from)?;
-        self.read(unit)
-    }
-
-    fn read(&self, unit: &mut dyn Unit) -> Result<Vec<f64>, Refused> {
-        let references: Vec<_> = self
-            .answers
-            .iter()
-            .map(|(_, answer)| answer.reference)
-            .collect();
-        unit.read(&references)
-    }
-}
-
-/// What an importer saw.
-struct Run {
-    rows: Vec<Vec<f64>>,
-    state_continues: Option<bool>,
-    reset_repeats: bool,
-}
-
-/// To the last bit; a NaN is no answer, and differs from itself.
-fn same(once: &[Vec<f64>], again: &[Vec<f64>]) -> bool {
-    once == again
 }
 
 fn difference(variable: &Variable, pairs: impl Iterator<Item = (f64, f64)>) -> Difference {

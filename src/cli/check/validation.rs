@@ -3,6 +3,7 @@
 use crate::joint::Joint;
 use crate::pack::{FmiVersion, Library, PackError, Platform};
 use crate::variables::{MODEL_IDENTIFIER, Variables};
+use fmi_rs::model_description::{ModelDescriptionError, ValidationError, fmi2, fmi3};
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -71,6 +72,7 @@ pub fn validate(
         }
         Err(error) => found.faults.push(format!("{DESCRIPTION}: {error}")),
     }
+    judged(&description, version, &mut found.faults);
     match terminals.as_deref().map(elements) {
         Some(Ok(elements)) => connected(&elements, variables, &mut found.faults),
         Some(Err(error)) => found.faults.push(format!("{TERMINALS}: {error}")),
@@ -177,6 +179,26 @@ fn interface(elements: &Elements, faults: &mut Vec<String>) {
         if value.is_some_and(|value| !value.parse().is_ok_and(|value: f64| value > 0.0)) {
             faults.push(format!("default experiment: {attribute} is not positive"));
         }
+    }
+}
+
+/// The standard's rules on names, roles, start values and structure, in the words of `fmi-rs`, which
+/// shares no code with what wrote the XML.
+fn judged(description: &str, version: FmiVersion, faults: &mut Vec<String>) {
+    let problems: Result<Vec<ValidationError>, ModelDescriptionError> = match version {
+        FmiVersion::Two => {
+            fmi2::ModelDescription::from_string(description).map(|read| read.validate())
+        }
+        FmiVersion::Three => {
+            fmi3::ModelDescription::from_string(description).map(|read| read.validate())
+        }
+    };
+    match problems {
+        Ok(problems) => {
+            let messages = problems.into_iter().map(|problem| problem.message);
+            faults.extend(messages.map(|message| format!("{DESCRIPTION}: {message}")));
+        }
+        Err(error) => faults.push(format!("{DESCRIPTION}: {error}")),
     }
 }
 

@@ -45,9 +45,8 @@ pub struct Verdict {
     pub input: &'static str,
     /// One line per signal.
     pub differences: Vec<Difference>,
-    /// True where a state saved halfway, serialized and put back gave the same end to the bit;
-    /// `None` where the importer has no saved states.
-    pub state_continues: Option<bool>,
+    /// True where a state saved halfway, serialized and put back gave the same end to the bit.
+    pub state_continues: bool,
     /// True where the whole run came out the same to the bit after a reset.
     pub reset_repeats: bool,
     /// The record's answer beside the joint's, where there is one.
@@ -63,7 +62,7 @@ impl Verdict {
     pub fn agrees(&self) -> bool {
         // `all` with `<=`: a NaN disagrees.
         let close = self.differences.iter().all(|d| d.relative() <= TOLERANCE);
-        close && self.reset_repeats && self.state_continues != Some(false)
+        close && self.reset_repeats && self.state_continues
     }
 
     fn word(&self) -> &'static str {
@@ -98,10 +97,10 @@ impl Verdict {
                 difference.relative()
             );
         }
-        let state = match self.state_continues {
-            Some(true) => "A saved state continues to the last bit.",
-            Some(false) => "A saved state does NOT continue.",
-            None => "Saved states were not tried: this importer has none of FMI 3.0.",
+        let state = if self.state_continues {
+            "A saved state continues to the last bit."
+        } else {
+            "A saved state does NOT continue."
         };
         let reset = if self.reset_repeats {
             "After a reset the run repeats to the last bit."

@@ -6,7 +6,7 @@ use crate::fmu::calls;
 use crate::fmu::entry::{call, stop};
 use crate::fmu::instance::Instance;
 use crate::fmu::lifecycle::fmi2FreeInstance;
-use crate::fmu::logger::{Category, Host, Messenger};
+use crate::fmu::logger::{Category, Host, Messenger, Standard};
 use crate::fmu::pointers;
 use crate::fmu::refusal::Refusal;
 use crate::variables::STAMP;
@@ -66,17 +66,20 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     // SAFETY: strings as the standard asks.
     let made = stop(|| unsafe {
         let name = pointers::text("instanceName", name)?;
-        let token = pointers::text("instantiationToken", token)?;
+        let standard = Standard::Three;
+        let token = pointers::text(standard.token(), token)?;
         if event_mode_used != 0 {
             return Err(Refusal::NotOffered {
                 capability: "hasEventMode",
             });
         }
+        let argument = standard.resources();
         if resource_path.is_null() {
-            return Err(Refusal::NoLocation);
+            return Err(Refusal::NoLocation { argument });
         }
-        let path = pointers::text("resourcePath", resource_path)?;
-        let instance = Instance::new(Bundle::read(path, token)?, name, host, logging_on != 0)?;
+        let path = pointers::text(argument, resource_path)?;
+        let bundle = Bundle::read(standard, path, token)?;
+        let instance = Instance::new(bundle, name, host, logging_on != 0)?;
         instance.tell(&format!("instantiated from {STAMP}"));
         Ok(instance)
     });

@@ -1,25 +1,23 @@
 //! An unpacked archive of either version.
 
-use super::reduced;
 use super::unit::{Refused, Unit};
 use crate::cli::BadInput;
 use crate::pack::FmiVersion;
 use fmi::fmi2::import::Fmi2Import;
-use fmi::fmi3::Fmi3Model;
-use fmi::fmi3::import::Fmi3Import;
 use fmi::import;
 use fmi::schema::MajorVersion;
 use fmi::schema::traits::{DefaultExperiment, FmiModelDescription};
 use fmi::traits::FmiImport;
+use fmi_rs::fmi3::builder::FMU3Builder;
 use std::path::{Path, PathBuf};
 
-/// The `fmi` crate's importers.
-#[derive(Debug)]
+/// The importers, one for each version. The `fmi` crate has one of FMI 3.0 too, but without saved
+/// states, and it takes no `unit`.
 pub enum Import {
-    /// Of FMI 2.0.
+    /// Of FMI 2.0, in the `fmi` crate.
     Two(Fmi2Import),
-    /// Of FMI 3.0.
-    Three(Fmi3Import),
+    /// Of FMI 3.0, in `fmi-rs`.
+    Three(FMU3Builder),
 }
 
 impl Import {
@@ -39,14 +37,14 @@ impl Import {
             .and_then(|seen| seen.major_version().map_err(|error| error.to_string()))
             .map_err(refuse)?;
         match version {
-            MajorVersion::FMI2 => import::from_path(path).map(Import::Two),
-            MajorVersion::FMI3 => {
-                let reduced = reduced::archive(path).map_err(|error| refuse(error.to_string()))?;
-                import::new(reduced).map(Import::Three)
-            }
-            MajorVersion::FMI1 => return Err(refuse("its version is 1.0".into())),
+            MajorVersion::FMI2 => import::from_path(path)
+                .map(Import::Two)
+                .map_err(|error| refuse(error.to_string())),
+            MajorVersion::FMI3 => FMU3Builder::new(&path)
+                .map(|builder| Import::Three(without_events(builder)))
+                .map_err(|error| refuse(error.to_string())),
+            MajorVersion::FMI1 => Err(refuse("its version is 1.0".into())),
         }
-        .map_err(|error| refuse(error.to_string()))
     }
 
     /// Version of FMI.
@@ -61,7 +59,7 @@ impl Import {
     pub fn resources(&self) -> PathBuf {
         match self {
             Import::Two(import) => import.resource_path(),
-            Import::Three(import) => import.resource_path(),
+            Import::Three(import) => import.unzipdir.path().join("resources"),
         }
     }
 
@@ -69,7 +67,7 @@ impl Import {
     pub fn token(&self) -> &str {
         match self {
             Import::Two(import) => &import.model_description().guid,
-            Import::Three(import) => &import.model_description().instantiation_token,
+            Import::Three(import) => &import.model_description.instantiationToken,
         }
     }
 
@@ -77,7 +75,10 @@ impl Import {
     pub fn default_step(&self) -> Option<f64> {
         match self {
             Import::Two(import) => import.model_description().step_size(),
-            Import::Three(import) => import.model_description().step_size(),
+            Import::Three(import) => {
+                let experiment = import.model_description.defaultExperiment.as_ref()?;
+                experiment.stepSize.as_ref()?.parse().ok()
+            }
         }
     }
 
@@ -93,9 +94,18 @@ impl Import {
                 .map(|unit| Box::new(unit) as Box<dyn Unit>)
                 .map_err(|error| Refused::new("fmi2Instantiate", error)),
             Import::Three(import) => import
-                .instantiate_cs(name, false, false, false, false, &[])
+                .instantiate_cs(name)
                 .map(|unit| Box::new(unit) as Box<dyn Unit>)
                 .map_err(|error| Refused::new("fmi3InstantiateCoSimulation", error)),
         }
+    }
+}
+
+/// The archive declares neither events nor early return: none is asked for.
+fn without_events(builder: FMU3Builder) -> FMU3Builder {
+    FMU3Builder {
+        eventModeUsed: false,
+        earlyReturnAllowed: false,
+        ..builder
     }
 }

@@ -3,60 +3,53 @@
 use super::unit::{Refused, Unit};
 use fmi::fmi2::instance::{CoSimulation, Common, InstanceCS};
 use fmi::traits::FmiStatus;
+use std::fmt::Display;
 
 impl Unit for InstanceCS {
-    fn start(&mut self, time: f64, input: u32, value: f64) -> Result<(), Refused> {
-        self.setup_experiment(None, time, None)
-            .map_err(|error| Refused::new("fmi2SetupExperiment", error))?;
-        self.enter_initialization_mode()
-            .map_err(|error| Refused::new("fmi2EnterInitializationMode", error))?;
-        self.set(input, value)?;
-        self.exit_initialization_mode()
-            .map(|_| ())
-            .map_err(|error| Refused::new("fmi2ExitInitializationMode", error))
+    fn enter_initialization(&mut self, time: f64) -> Result<(), Refused> {
+        let set_up = self.setup_experiment(None, time, None);
+        answered("fmi2SetupExperiment", set_up)?;
+        let entered = Common::enter_initialization_mode(self);
+        answered("fmi2EnterInitializationMode", entered).map(|_| ())
+    }
+
+    fn exit_initialization(&mut self) -> Result<(), Refused> {
+        let exited = Common::exit_initialization_mode(self);
+        answered("fmi2ExitInitializationMode", exited).map(|_| ())
     }
 
     fn set(&mut self, input: u32, value: f64) -> Result<(), Refused> {
-        self.set_real(&[input], &[value])
-            .map(|_| ())
-            .map_err(|error| Refused::new(format!("fmi2SetReal to {value}"), error))
+        let set = self.set_real(&[input], &[value]);
+        answered(format!("fmi2SetReal to {value}"), set).map(|_| ())
     }
 
     fn step(&mut self, from: f64, size: f64) -> Result<(), Refused> {
-        let call = || format!("fmi2DoStep from {from} s by {size} s");
-        self.do_step(from, size, true)
-            .map(|_| ())
-            .map_err(|error| Refused::new(call(), error))
+        let stepped = self.do_step(from, size, true);
+        answered(format!("fmi2DoStep from {from} s by {size} s"), stepped).map(|_| ())
     }
 
     fn read(&mut self, references: &[u32]) -> Result<Vec<f64>, Refused> {
         let mut values = vec![f64::NAN; references.len()];
-        self.get_real(references, &mut values)
-            .map_err(|error| Refused::new("fmi2GetReal", error))?;
+        answered("fmi2GetReal", self.get_real(references, &mut values))?;
         Ok(values)
     }
 
     fn reset(&mut self) -> Result<(), Refused> {
-        Common::reset(self)
-            .map(|_| ())
-            .map_err(|error| Refused::new("fmi2Reset", error))
+        answered("fmi2Reset", Common::reset(self)).map(|_| ())
     }
 
-    fn save(&mut self) -> Result<Option<Vec<u8>>, Refused> {
-        let state = self
-            .get_fmu_state()
-            .map_err(|error| Refused::new("fmi2GetFMUstate", error))?;
-        self.serialize_fmu_state(&state)
-            .map(Some)
-            .map_err(|error| Refused::new("fmi2SerializeFMUstate", error))
+    fn save(&mut self) -> Result<Vec<u8>, Refused> {
+        let state = answered("fmi2GetFMUstate", self.get_fmu_state())?;
+        answered("fmi2SerializeFMUstate", self.serialize_fmu_state(&state))
     }
 
     fn restore(&mut self, bytes: &[u8]) -> Result<(), Refused> {
-        let state = self
-            .deserialize_fmu_state(bytes)
-            .map_err(|error| Refused::new("fmi2DeSerializeFMUstate", error))?;
-        FmiStatus::ok(self.set_fmu_state(&state))
-            .map(|_| ())
-            .map_err(|error| Refused::new("fmi2SetFMUstate", error))
+        let state = answered("fmi2DeSerializeFMUstate", self.deserialize_fmu_state(bytes))?;
+        let set = FmiStatus::ok(self.set_fmu_state(&state));
+        answered("fmi2SetFMUstate", set).map(|_| ())
     }
+}
+
+fn answered<T>(call: impl Into<String>, answer: Result<T, impl Display>) -> Result<T, Refused> {
+    answer.map_err(|error| Refused::new(call, error))
 }

@@ -1,5 +1,7 @@
 //! What the comparison asks of an importer, whatever the version of the archive.
 
+use std::fmt::Display;
+
 /// A call that an archive refused, and how.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{call}: {answer}")]
@@ -12,7 +14,7 @@ pub struct Refused {
 
 impl Refused {
     /// Of a call and what the importer says of it.
-    pub fn new(call: impl Into<String>, answer: impl std::fmt::Display) -> Refused {
+    pub fn new(call: impl Into<String>, answer: impl Display) -> Refused {
         let call = call.into();
         let answer = answer.to_string();
         Refused { call, answer }
@@ -22,21 +24,23 @@ impl Refused {
 /// One instance of an archive inside an independent importer. Times in seconds; values in the
 /// variables' SI units.
 pub trait Unit {
-    /// Through Initialization Mode to the first communication point, under the input there.
+    /// Begins Initialization Mode, with this start time.
     ///
     /// # Errors
     /// [`Refused`], as everywhere below.
-    fn start(&mut self, time: f64, input: u32, value: f64) -> Result<(), Refused>;
+    fn enter_initialization(&mut self, time: f64) -> Result<(), Refused>;
+    /// Ends Initialization Mode.
+    fn exit_initialization(&mut self) -> Result<(), Refused>;
     /// Sets the input.
     fn set(&mut self, input: u32, value: f64) -> Result<(), Refused>;
     /// One communication step.
     fn step(&mut self, from: f64, size: f64) -> Result<(), Refused>;
     /// Values of variables.
     fn read(&mut self, references: &[u32]) -> Result<Vec<f64>, Refused>;
-    /// Back to before [`Unit::start`].
+    /// Back to before [`Unit::enter_initialization`].
     fn reset(&mut self) -> Result<(), Refused>;
-    /// The state as bytes; `None` where the importer has no call for it.
-    fn save(&mut self) -> Result<Option<Vec<u8>>, Refused>;
+    /// The state as bytes.
+    fn save(&mut self) -> Result<Vec<u8>, Refused>;
     /// Continues from such bytes.
     fn restore(&mut self, bytes: &[u8]) -> Result<(), Refused>;
 }
