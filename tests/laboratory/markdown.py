@@ -63,11 +63,14 @@ def _pairs(summary):
 
 def _single_figures(summary):
     sure, apart = summary["separability"], summary["separability"]["where_separable"]
+    seen = sure["where_separable_at_the_size_found"]
     cal, same = summary["calibration"], summary["parameters"]["same_law"]
     held, after = summary["held_out"], summary["follow_up"]
     rows = [
         ["separable by 25 or more: right alone", _of(apart["alone"])],
         ["… in the stated set", _of(apart["in_set"])],
+        ["… where the effect was seen, at its own size: right alone", _of(seen["alone"])],
+        ["… … in the stated set", _of(seen["in_set"])],
         ["one cause named, nothing ambiguous: right", _of(sure["single_name_right"])],
         [
             "… clean records and foreign effects counted",
