@@ -91,6 +91,7 @@ fn simulate(effects: Vec<Acting>, drive: Drive, path: &[f64]) -> Vec<Output> {
 
 fn truth(outputs: &[Output]) -> Trajectory {
     Trajectory {
+        begins: 0.0,
         time: outputs.iter().map(|o| o.time).collect(),
         force: outputs.iter().map(|o| o.force).collect(),
         displacement: outputs.iter().map(|o| o.displacement).collect(),
@@ -116,6 +117,7 @@ fn scale() -> Scale {
         stiffness: joint(vec![]).initial_stiffness(),
         dissipation: largest(|o| o.dissipation),
         duration: largest(|o| o.time),
+        lengths: vec![largest(|o| o.time)],
         period: 2.0 * LEG as f64 * STEP,
         step: STEP,
     }

@@ -136,6 +136,7 @@ fn effects() -> Vec<Acting> {
         stiffness: 1.1e7,
         dissipation: 0.1,
         duration: 0.1,
+        lengths: vec![0.1],
         period: 0.02,
         step: STEP,
     };

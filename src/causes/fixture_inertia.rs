@@ -123,6 +123,7 @@ mod tests {
     fn a_sine_is_accelerated_by_its_frequency_squared() {
         let time: Vec<f64> = (0..4000).map(|i| 1e-3 * f64::from(i)).collect();
         let truth = Trajectory {
+            begins: 0.0,
             displacement: time.iter().map(|t| 2e-6 * (20.0 * t).sin()).collect(),
             force: time.iter().map(|t| 50.0 * (20.0 * t).sin()).collect(),
             time,
@@ -140,6 +141,7 @@ mod tests {
     #[test]
     fn rest_and_short_records_have_none() {
         let still = |count| Trajectory {
+            begins: 0.0,
             time: (0..count).map(|i| i as f64).collect(),
             force: vec![0.0; count],
             displacement: vec![5.0; count],

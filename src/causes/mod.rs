@@ -53,7 +53,7 @@ pub struct Page {
 }
 
 /// Sizes of a record that tell where a search starts. SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
     /// Largest magnitude of the force \[N\].
     pub force: f64,
@@ -67,6 +67,8 @@ pub struct Scale {
     pub dissipation: f64,
     /// Length of the longest record \[s\].
     pub duration: f64,
+    /// Lengths of all records in their order \[s\].
+    pub lengths: Vec<f64>,
     /// Shortest period of the drive \[s\].
     pub period: f64,
     /// Time between samples \[s\].

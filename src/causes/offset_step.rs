@@ -34,7 +34,7 @@ static PARAMETERS: [Parameter; 3] = [
         upper: 1e9,
         vanishes_at: None,
         neutral: None,
-        meaning: "time of the jump from the start of the record",
+        meaning: "time of the jump, counted through the records one after another",
     },
     Parameter {
         name: "sharpness",
@@ -67,13 +67,17 @@ impl Effect for OffsetStep {
     }
 }
 
-/// Time of the middle of the jump and its length \[s\]; `None` in a record without samples.
+/// Starts of a search over all records together.
+const MOST_STARTS: usize = 24;
+
+/// Time of the middle of the jump on the record's own clock and its length \[s\]; `None` in a record
+/// without samples. A jump in another record is before this one's start or behind its end.
 fn jump(values: &[f64], truth: &Trajectory) -> Option<(f64, f64)> {
     let (start, end) = (truth.time.first()?, truth.time.last()?);
     let sample = (end - start) / truth.time.len() as f64;
     let length = (end - start) * exp(-values[2]);
     let width = hypot(length, sample).max(f64::MIN_POSITIVE);
-    Some((start + values[1], width))
+    Some((start + values[1] - truth.begins, width))
 }
 
 /// Rise of the highest force yet, as a share of the highest of all, that a specimen may settle under.
@@ -99,6 +103,10 @@ impl Cause for OffsetStep {
     /// A specimen that settles does so while the force is higher than it ever was.
     fn double(&self, values: &[f64], truth: &Trajectory) -> Option<&'static str> {
         let (middle, width) = jump(values, truth)?;
+        let (start, end) = (truth.time.first()?, truth.time.last()?);
+        if middle < *start || middle > *end {
+            return None;
+        }
         let peak_until = |end: f64| {
             let until = truth.time.iter().zip(&truth.force);
             until
@@ -110,12 +118,17 @@ impl Cause for OffsetStep {
             .then_some("the force was higher than ever before when the reading jumped, so the specimen may have settled")
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        (0..8)
-            .map(|k| {
-                let time = (f64::from(k) + 0.5) / 8.0 * scale.duration;
-                vec![0.005 * scale.displacement, time, SLOWEST]
-            })
-            .collect()
+        let each = (MOST_STARTS / scale.lengths.len().max(1)).clamp(2, 8);
+        let mut begins = 0.0;
+        let mut starts = Vec::new();
+        for length in &scale.lengths {
+            for k in 0..each {
+                let time = begins + (k as f64 + 0.5) / each as f64 * length;
+                starts.push(vec![0.005 * scale.displacement, time, SLOWEST]);
+            }
+            begins += length;
+        }
+        starts
     }
 }
 
@@ -126,6 +139,7 @@ mod tests {
     #[test]
     fn it_rises_from_nothing_to_its_height_within_a_few_samples() {
         let truth = Trajectory {
+            begins: 0.0,
             time: (0..101).map(|i| 5.0 + 0.1 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 101],
@@ -150,6 +164,7 @@ mod tests {
         let time: Vec<f64> = (0..801).map(|i| 0.01 * f64::from(i)).collect();
         let force = time.iter().map(|t| (std::f64::consts::TAU * t).sin());
         let truth = Trajectory {
+            begins: 0.0,
             force: force.collect(),
             displacement: vec![0.0; 801],
             time,

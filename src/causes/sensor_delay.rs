@@ -97,6 +97,7 @@ mod tests {
     fn a_sine_is_read_late_or_early_by_parts_of_a_sample() {
         let time: Vec<f64> = (0..1000).map(|i| 0.01 * f64::from(i)).collect();
         let truth = Trajectory {
+            begins: 0.0,
             displacement: time.iter().map(|t| (3.0 * t).sin()).collect(),
             force: vec![],
             time,
@@ -114,6 +115,7 @@ mod tests {
     #[test]
     fn nothing_is_known_before_the_record() {
         let truth = Trajectory {
+            begins: 0.0,
             time: vec![1.0, 2.0, 3.0],
             force: vec![],
             displacement: vec![0.5, 1.5, 3.5],

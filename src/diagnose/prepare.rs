@@ -2,11 +2,12 @@
 
 use super::mains_phase;
 use crate::causes::Scale;
+use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::cycles::span;
 use crate::record::noise::{Noise, from_differences, from_residual};
-use crate::record::outliers::{Neighbours, outliers};
+use crate::record::outliers::{Neighbours, outliers, scattered};
 use crate::record::repeats::from_repeats;
 use crate::record::split::held_out;
 
@@ -219,13 +220,13 @@ fn strike_residuals(problem: &mut Problem, first: &Fit, struck: &mut [Vec<bool>]
     let form = problem.operators.form;
     let mut any = false;
     for (k, record) in problem.records.iter_mut().enumerate() {
-        let judged = match form {
-            Form::Play => &mut record.displacement,
-            Form::Stop => &mut record.force,
+        let (drive, judged) = match form {
+            Form::Play => (&record.force, &mut record.displacement),
+            Form::Stop => (&record.displacement, &mut record.force),
         };
         let predicted = &predictions[k].judged;
         let residual: Vec<f64> = judged.iter().zip(predicted).map(|(y, p)| y - p).collect();
-        for (i, instead) in outliers(&residual, Neighbours::Level) {
+        for (i, instead) in scattered(outliers(&residual, Neighbours::Level), drive) {
             judged[i] = predicted[i] + instead;
             struck[k][i] = true;
             record.weight[i] = 0.0;
@@ -286,7 +287,8 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
 fn scale(problem: &Problem, first: &Fit) -> Scale {
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut duration, mut dissipation, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut dissipation, mut step) = (0.0_f64, 0.0_f64);
+    let lengths: Vec<f64> = problem.records.iter().map(Prepared::length).collect();
     for (k, record) in problem.records.iter().enumerate() {
         let mut last = 0.0;
         let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
@@ -296,8 +298,6 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         force = force.max(largest(&truth.force));
         displacement = displacement.max(largest(&truth.displacement));
         dissipation = dissipation.max(last);
-        duration =
-            duration.max(record.time.last().unwrap_or(&0.0) - record.time.first().unwrap_or(&0.0));
         for i in 1..truth.displacement.len() {
             let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
             velocity = velocity.max(rate.abs());
@@ -315,7 +315,8 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         velocity,
         stiffness,
         dissipation,
-        duration,
+        duration: lengths.iter().copied().fold(0.0, f64::max),
+        lengths,
         period,
         step,
     }

@@ -55,6 +55,11 @@ impl Prepared {
         self.between = between(&self.time, self.channels(form).0);
     }
 
+    /// Time from the first sample to the last \[s\].
+    pub fn length(&self) -> f64 {
+        self.time.last().unwrap_or(&0.0) - self.time.first().unwrap_or(&0.0)
+    }
+
     /// Measured input and measured judged channel of a form.
     pub fn channels(&self, form: Form) -> (&[f64], &[f64]) {
         match form {
@@ -137,6 +142,7 @@ impl Problem {
             time: record.time.clone(),
             force: record.force.clone(),
             displacement: record.displacement.clone(),
+            begins: self.records[..k].iter().map(Prepared::length).sum(),
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects, cells);

@@ -94,6 +94,8 @@ pub struct Trajectory {
     pub force: Vec<f64>,
     /// Displacement [m].
     pub displacement: Vec<f64>,
+    /// Length [s] of all records before this one: what happens once has one time for all of them.
+    pub begins: f64,
 }
 
 /// One effect: a law at one place. Values of its parameters come as a slice in the order of

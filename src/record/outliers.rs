@@ -1,5 +1,7 @@
 //! Samples that stand alone: a digit lost on the way, a spark in the cable, a jolt of the drive.
 
+use super::cycles::span;
+
 /// What the neighbours on one side say of a sample: their mean, or the line through them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Neighbours {
@@ -27,6 +29,36 @@ const FEW: f64 = 0.03;
 
 /// Samples about a judged one whose deviations are compared with its own.
 const AROUND: usize = 12;
+
+/// Levels of the drive that are told apart, each on its way up and on its way down.
+const LEVELS: usize = 20;
+
+/// How many at one level and way, and how many times more often than elsewhere, tell that they are no
+/// sparks.
+const GATHERED: f64 = 4.0;
+
+/// Those that do not gather at one level of the drive on one way through it: a spark knows nothing of the
+/// drive, while a contact that closes or a sensor at the end of its range shows there in every cycle.
+pub fn scattered(found: Vec<(usize, f64)>, drive: &[f64]) -> Vec<(usize, f64)> {
+    let lowest = drive.iter().copied().fold(f64::INFINITY, f64::min);
+    let level = LEVELS as f64 / span(drive).max(f64::MIN_POSITIVE);
+    let stage = |i: usize| {
+        let (before, after) = (i.saturating_sub(APART), (i + APART).min(drive.len() - 1));
+        let at = ((drive[i] - lowest) * level) as usize;
+        2 * at.min(LEVELS - 1) + usize::from(drive[after] > drive[before])
+    };
+    let mut room = [0.0; 2 * LEVELS];
+    (0..drive.len()).for_each(|i| room[stage(i)] += 1.0);
+    let mut here = [0.0; 2 * LEVELS];
+    found.iter().for_each(|(i, _)| here[stage(*i)] += 1.0);
+    let gathered = |stage: usize| {
+        let elsewhere = found.len() as f64 - here[stage] + 1.0;
+        let expected = elsewhere * room[stage] / (drive.len() as f64 - room[stage]).max(1.0);
+        here[stage] >= GATHERED && here[stage] > GATHERED * expected
+    };
+    let kept = found.iter().filter(|(i, _)| !gathered(stage(*i)));
+    kept.copied().collect()
+}
 
 /// Samples that both sides foretell to lie elsewhere, in the same direction, by more than
 /// deviations scatter in the record and about the sample; with what their sides say instead.
