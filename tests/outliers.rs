@@ -1,6 +1,6 @@
 //! Samples that stand alone are found; noise, kinks and smooth channels are left as they are.
 
-use iwan::record::outliers::{Neighbours, outliers};
+use iwan::record::outliers::{Neighbours, outliers, scattered};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -38,4 +38,23 @@ fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
     let found = outliers(&sine, Neighbours::Line);
     assert_eq!(found.len(), 1);
     assert!((found[0].1 - (0.06_f64 * 1234.0).sin()).abs() < 0.1);
+}
+
+/// Of a residual with one spike a cycle, always at the same load, and of sparks anywhere, the sparks alone
+/// are struck out: the filter once took what a saturated sensor left for sparks.
+#[test]
+fn what_comes_back_at_one_load_of_every_cycle_is_no_spark() {
+    let drive: Vec<f64> = (0..4000)
+        .map(|i| (std::f64::consts::TAU * f64::from(i) / 80.0).sin())
+        .collect();
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut residual: Vec<f64> = (0..4000).map(|_| normal(&mut random)).collect();
+    (0..50).for_each(|cycle| residual[80 * cycle + 19] += 40.0);
+    let sparks = [411, 1203, 1750, 2334, 3340];
+    sparks.iter().for_each(|&i| residual[i] += 40.0);
+    let found = outliers(&residual, Neighbours::Level);
+    let all: Vec<usize> = found.iter().map(|o| o.0).collect();
+    assert!(all.contains(&(80 * 20 + 19)), "{all:?}");
+    let left: Vec<usize> = scattered(found, &drive).iter().map(|o| o.0).collect();
+    assert_eq!(left, sparks);
 }

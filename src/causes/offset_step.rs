@@ -80,6 +80,9 @@ fn jump(values: &[f64], truth: &Trajectory) -> Option<(f64, f64)> {
     Some((start + values[1] - truth.begins, width))
 }
 
+/// Share of the record's length by which the time of a jump may be wrong.
+const ABOUT: f64 = 0.005;
+
 /// Rise of the highest force yet, as a share of the highest of all, that a specimen may settle under.
 const HIGHER: f64 = 0.03;
 
@@ -113,7 +116,8 @@ impl Cause for OffsetStep {
                 .take_while(|(t, _)| **t <= end)
                 .fold(0.0_f64, |peak, (_, f)| peak.max(f.abs()))
         };
-        let (before, after) = (peak_until(middle - width), peak_until(middle + width));
+        let about = width + ABOUT * (end - start);
+        let (before, after) = (peak_until(middle - about), peak_until(middle + about));
         (after - before > HIGHER * peak_until(f64::INFINITY))
             .then_some("the force was higher than ever before when the reading jumped, so the specimen may have settled")
     }
