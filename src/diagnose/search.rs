@@ -1,5 +1,5 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
-//! the baseline, the best set grown forward and pruned backward.
+//! the baseline, the best set grown forward, its causes exchanged for better ones, and pruned backward.
 
 use super::places::{self, Place};
 use super::prepare::Bench;
@@ -68,7 +68,7 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
 
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
 ///
-/// Of the causes with enough evidence, the one is taken that lowers the squared error most, held-out
+/// A second cause stays until the places of both have been looked at. Of the causes with enough evidence, the one is taken that lowers the squared error most, held-out
 /// samples included, of those that [`Prospect::holds`] lets pass.
 fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Vec<Trial>) {
     let problem = &bench.train;
