@@ -342,7 +342,7 @@ fn json_follows_the_schema_field_by_field() {
         }],
         "unexplained": {
             "share": 0.02, "where": ["record bolt-2, cycles 4–6, just after reversals"],
-            "correction": null,
+            "perhaps_instead": [], "correction": null,
         },
         "not_identifiable": [
             "Rate effects: all cycles have one frequency.",
