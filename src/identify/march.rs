@@ -2,6 +2,7 @@
 //! sample. The judged channel it predicts is the simulation, so identification and simulation
 //! cannot disagree.
 
+use super::bracket::Bracket;
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation, Trajectory};
@@ -43,39 +44,6 @@ const PRECISE: f64 = 1e-13;
 /// Trials after which a step takes what it has.
 const MOST_TRIALS: usize = 60;
 
-/// What is known of where the one root of an increasing equation lies.
-struct Bracket {
-    low: f64,
-    high: f64,
-}
-
-impl Bracket {
-    fn new() -> Bracket {
-        Bracket {
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-        }
-    }
-
-    /// Newton's next trial; the middle where it leaves the bracket, or a `leap` back while one side
-    /// is open.
-    fn next(&mut self, trial: f64, error: f64, slope: f64, leap: f64) -> f64 {
-        if error > 0.0 {
-            self.high = self.high.min(trial);
-        } else {
-            self.low = self.low.max(trial);
-        }
-        let newton = trial - error / slope;
-        if newton > self.low && newton < self.high {
-            newton
-        } else if self.low.is_finite() && self.high.is_finite() {
-            0.5 * (self.low + self.high)
-        } else {
-            trial - leap
-        }
-    }
-}
-
 fn index(place: Place) -> usize {
     place as usize
 }
@@ -85,7 +53,7 @@ fn index(place: Place) -> usize {
 pub enum Cells {
     /// All of them: asked for rows of the dictionary.
     All,
-    /// Those with a coefficient, a third of them or fewer after a fit: enough for a prediction.
+    /// Those with a coefficient, about half of them after a fit: enough for a prediction.
     Weighted,
 }
 
