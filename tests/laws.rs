@@ -116,7 +116,6 @@ fn scale() -> Scale {
         velocity: answers.windows(2).map(rate).fold(0.0, f64::max),
         stiffness: joint(vec![]).initial_stiffness(),
         dissipation: largest(|o| o.dissipation),
-        duration: largest(|o| o.time),
         lengths: vec![largest(|o| o.time)],
         period: 2.0 * LEG as f64 * STEP,
         step: STEP,

@@ -135,7 +135,6 @@ fn effects() -> Vec<Acting> {
         velocity: 8e-3,
         stiffness: 1.1e7,
         dissipation: 0.1,
-        duration: 0.1,
         lengths: vec![0.1],
         period: 0.02,
         step: STEP,

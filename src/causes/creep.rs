@@ -104,7 +104,7 @@ impl Cause for Creep {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let compliance = 0.01 * scale.displacement / scale.force;
         let by_period = [0.05, 0.2, 1.0].map(|share| share * scale.period);
-        let by_duration = [0.03, 0.1, 0.3, 1.0].map(|share| share * scale.duration);
+        let by_duration = [0.03, 0.1, 0.3, 1.0].map(|share| share * scale.duration());
         by_period
             .iter()
             .chain(&by_duration)

@@ -57,6 +57,6 @@ impl Cause for DisplacementDrift {
         true
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.01 * scale.displacement / scale.duration]]
+        vec![vec![0.01 * scale.displacement / scale.duration()]]
     }
 }

@@ -65,14 +65,19 @@ pub struct Scale {
     pub stiffness: f64,
     /// Energy the baseline dissipates over the longest record \[J\].
     pub dissipation: f64,
-    /// Length of the longest record \[s\].
-    pub duration: f64,
     /// Lengths of all records in their order \[s\].
     pub lengths: Vec<f64>,
     /// Shortest period of the drive \[s\].
     pub period: f64,
     /// Time between samples \[s\].
     pub step: f64,
+}
+
+impl Scale {
+    /// Length of the longest record \[s\].
+    pub fn duration(&self) -> f64 {
+        self.lengths.iter().copied().fold(0.0, f64::max)
+    }
 }
 
 /// A named cause: an effect, the page that explains it, and where a search for it starts.

@@ -30,10 +30,11 @@ use search::{Found, quick, search};
 use structure::structure;
 
 use crate::causes::{Kind, find};
-use crate::identify::{Fit, Form, baseline, exported, refit};
+use crate::identify::{Fit, Form, Prediction, baseline, exported, refit};
 use crate::joint::JointError;
 use crate::joint::effect::Acting;
 use crate::record::Record;
+use crate::record::noise::independence;
 use crate::record::thinned::thinned;
 
 /// Diagnoses the records of one joint.
@@ -133,7 +134,8 @@ fn assemble(
         false => refit(&bench.whole, &found.best, found.best.effects.clone()),
     };
     let structure_before = structure(&bench.whole, &whole_base.predict(&bench.whole));
-    let structure_after = structure(&bench.whole, &whole.predict(&bench.whole));
+    let modelled = whole.predict(&bench.whole);
+    let structure_after = structure(&bench.whole, &modelled);
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let timed = records.iter().all(|r| r.time.is_some());
@@ -141,7 +143,7 @@ fn assemble(
         true => (structure_after.share / structure_before.share).min(1.0),
         false => 0.0,
     };
-    let doubles = doubles(bench, &whole);
+    let doubles = doubles(&whole, &modelled);
     let verdict = verdict::verdict(
         named.then(|| {
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
@@ -207,8 +209,7 @@ fn assemble(
 }
 
 /// What is not in the catalogue and may be there in place of a named cause.
-fn doubles(bench: &Bench, whole: &Fit) -> Vec<String> {
-    let predictions = whole.predict(&bench.whole);
+fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
     let double = |acting: &Acting| {
         let cause = find(acting.effect.name())?;
         let mut tests = predictions.iter();
@@ -312,6 +313,6 @@ fn noise(bench: &Bench, unit: &str) -> NoiseFinding {
         } else {
             "residual of the best model, because too few cycles repeat".to_string()
         },
-        effective_samples: rows * (1.0 - autoregression) / (1.0 + autoregression),
+        effective_samples: rows * independence(autoregression),
     }
 }

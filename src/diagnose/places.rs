@@ -22,14 +22,17 @@ pub struct Place {
 /// are those of a single cause's place.
 pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Place> {
     let problem = &bench.train;
+    let unseen = match best.effects.len() {
+        0 | 1 => 0.0,
+        _ => beyond_unseen(bench, best).max(0.0),
+    };
     (0..best.effects.len())
         .map(|place| {
             let mut others = best.effects.clone();
             let named = others.remove(place).effect.name();
             let without = alone(problem, best, others, first);
             let brought = without.misfit - best.misfit;
-            let wanted = as_well(problem, best, brought)
-                .max(best.misfit + beyond_unseen(bench, best).max(0.0));
+            let wanted = as_well(problem, best, brought).max(best.misfit + unseen);
             let trials = match best.effects.len() {
                 1 => first.to_vec(),
                 _ => trials(
@@ -96,9 +99,15 @@ impl Place {
 fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
     let scale = dispersion(problem, best);
     let rows = problem.rows() as f64;
-    let left = (best.misfit - rows - SCATTER * (2.0 * rows).sqrt()).max(0.0);
+    let left = beyond_scatter(problem, best).max(0.0);
     let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
     best.misfit + MARGIN * scale + unseen
+}
+
+/// Misfit beyond what noise alone leaves, its scatter included.
+pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
+    let rows = problem.rows() as f64;
+    fit.misfit - rows - SCATTER * (2.0 * rows).sqrt()
 }
 
 /// Difference of misfit, in noise variances, within which two causes count as equally good: a
@@ -113,4 +122,4 @@ const MARGIN: f64 = 10.0;
 pub const NEARLY: f64 = 0.01;
 
 /// Standard deviations by which a sum of squares of noise alone may exceed its mean.
-pub const SCATTER: f64 = 2.0;
+const SCATTER: f64 = 2.0;

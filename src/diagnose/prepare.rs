@@ -288,7 +288,6 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut dissipation, mut step) = (0.0_f64, 0.0_f64);
-    let lengths: Vec<f64> = problem.records.iter().map(Prepared::length).collect();
     for (k, record) in problem.records.iter().enumerate() {
         let mut last = 0.0;
         let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
@@ -315,8 +314,7 @@ fn scale(problem: &Problem, first: &Fit) -> Scale {
         velocity,
         stiffness,
         dissipation,
-        duration: lengths.iter().copied().fold(0.0, f64::max),
-        lengths,
+        lengths: problem.records.iter().map(Prepared::length).collect(),
         period,
         step,
     }

@@ -112,9 +112,8 @@ fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Ve
 /// Half of it is enough for a second cause to be looked at: two that explain all may each beside the
 /// other bring what neither brings beside a first one that is neither of them.
 fn structure(problem: &Problem, fit: &Fit) -> f64 {
-    let rows = problem.rows() as f64;
-    let left = fit.misfit - rows - places::SCATTER * (2.0 * rows).sqrt();
-    if left > STRUCTURE * rows {
+    let left = places::beyond_scatter(problem, fit);
+    if left > STRUCTURE * problem.rows() as f64 {
         left
     } else {
         f64::INFINITY
@@ -147,11 +146,17 @@ fn settled(
         best = better;
         places = places::places(bench, timed, &best, first);
     }
-    let pruned = prune(&bench.train, best.clone(), least, first);
-    if pruned.effects.len() < best.effects.len() {
-        places = places::places(bench, timed, &pruned, first);
+    let share = share(&bench.train, &best, least);
+    if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
+        best = prune(&bench.train, best, least, first);
+        places = places::places(bench, timed, &best, first);
     }
-    (pruned, places)
+    (best, places)
+}
+
+/// Misfit that each of several causes has to take away: enough evidence, and its share.
+fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
+    least.max(ALARM * dispersion(problem, fit))
 }
 
 /// Drops causes that the others have made needless; `least` is what one has to take away.
@@ -165,11 +170,7 @@ fn prune(problem: &Problem, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
             })
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
-            Some(less)
-                if less.misfit - fit.misfit < least.max(ALARM * dispersion(problem, &fit)) =>
-            {
-                fit = less;
-            }
+            Some(less) if less.misfit - fit.misfit < share(problem, &fit, least) => fit = less,
             _ => break,
         }
     }

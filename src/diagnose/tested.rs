@@ -4,6 +4,7 @@
 use super::gain::ratio;
 use super::prepare::Bench;
 use crate::identify::{Fit, refit};
+use crate::record::noise::independence;
 
 /// The set without the causes that gain nothing on held-out data.
 ///
@@ -56,21 +57,24 @@ const DOMINANT: f64 = 0.5;
 pub fn beyond_unseen(bench: &Bench, fit: &Fit) -> f64 {
     let predictions = fit.predict(&bench.train);
     let mut beyond = 0.0;
-    for (k, held) in bench.held.iter().enumerate() {
-        let (_, judged) = bench.whole.channels(k);
-        let noise = &bench.noise[k];
-        let weight = unlike(noise.autoregression);
-        for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
-            let error = (judged[i] - predictions[k].judged[i]) / noise.deviation;
-            beyond += weight * (error.powi(2) - 1.0);
-        }
-    }
+    each_unseen(bench, |k, i, measured, weight| {
+        let error = measured - predictions[k].judged[i];
+        beyond += weight * (error.powi(2) - bench.noise[k].deviation.powi(2));
+    });
     beyond
 }
 
-/// What a sample counts for whose neighbours vary with it.
-fn unlike(autoregression: f64) -> f64 {
-    (1.0 - autoregression) / (1.0 + autoregression)
+/// Every held-out sample: its record and index, the measured value, and what its square weighs in noise
+/// variances, neighbours that vary together as fewer.
+fn each_unseen(bench: &Bench, mut each: impl FnMut(usize, usize, f64, f64)) {
+    for (k, held) in bench.held.iter().enumerate() {
+        let (_, judged) = bench.whole.channels(k);
+        let noise = &bench.noise[k];
+        let weight = independence(noise.autoregression) / noise.deviation.powi(2);
+        for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+            each(k, i, judged[i], weight);
+        }
+    }
 }
 
 /// Share of the baseline's misfit beyond noise that no other cause's law is wrong by.
@@ -99,17 +103,11 @@ impl Prospect {
             difference: 0.0,
             beyond: smaller.misfit - bench.train.rows() as f64,
         };
-        for (k, held) in bench.held.iter().enumerate() {
-            let (_, judged) = bench.whole.channels(k);
-            let noise = &bench.noise[k];
-            let weight = unlike(noise.autoregression) / noise.deviation.powi(2);
-            for (i, _) in held.iter().enumerate().filter(|(_, held)| **held) {
-                let (old, new) = (before[k].judged[i], after[k].judged[i]);
-                prospect.held_out +=
-                    weight * ((judged[i] - old).powi(2) - (judged[i] - new).powi(2));
-                prospect.difference += weight * (new - old).powi(2);
-            }
-        }
+        each_unseen(bench, |k, i, measured, weight| {
+            let (old, new) = (before[k].judged[i], after[k].judged[i]);
+            prospect.held_out += weight * ((measured - old).powi(2) - (measured - new).powi(2));
+            prospect.difference += weight * (new - old).powi(2);
+        });
         prospect
     }
 

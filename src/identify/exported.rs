@@ -11,13 +11,7 @@ use crate::joint::{Acting, Density, Joint, JointError, Sliders, play::Plays};
 /// # Errors
 /// [`JointError`] where the fit holds no stiffness at all.
 pub fn joint(operators: &Operators, fit: &Fit) -> Result<Joint, JointError> {
-    let spread = operators.spread(&fit.coefficients[1..]);
-    let acting = operators
-        .thresholds
-        .iter()
-        .copied()
-        .zip(spread)
-        .filter(|(_, c)| *c > 0.0);
+    let acting = operators.spread(&fit.coefficients[1..], |c| c > 0.0);
     let (thresholds, weights): (Vec<f64>, Vec<f64>) = acting.unzip();
     let sliders = match operators.form {
         Form::Play => {

@@ -75,19 +75,16 @@ impl<'a> March<'a> {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
         };
-        let thresholds = match has[index(Place::SlipLimit)] || has[index(input_channel)] {
-            true => &operators.thresholds,
-            false => operators.within(),
+        let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)];
+        let reached = match beyond {
+            true => &coefficients[1..],
+            false => &coefficients[1..=operators.edges.len()],
         };
-        let cells = thresholds
-            .chunks_exact(SHARED)
-            .zip(&coefficients[1..])
-            .filter(|(_, coefficient)| cells == Cells::All || **coefficient != 0.0)
-            .flat_map(|(cell, c)| cell.iter().map(move |&r| (r, c / SHARED as f64)));
+        let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
         March {
             operators,
             elastic: coefficients[0],
-            bank: Bank::new(cells),
+            bank,
             effects,
             memories: effects
                 .iter()

@@ -83,11 +83,18 @@ impl Operators {
         }
     }
 
-    /// One weight per threshold, from one coefficient per cell.
-    pub fn spread<'a>(&self, cells: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        cells
-            .iter()
-            .flat_map(|c| std::iter::repeat_n(c / SHARED as f64, SHARED))
+    /// Thresholds with their weights, from one coefficient per cell; of the first cells where fewer are
+    /// given, and of those alone whose coefficient is `wanted`.
+    pub fn spread<'a>(
+        &'a self,
+        cells: &'a [f64],
+        wanted: impl Fn(f64) -> bool + 'a,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.thresholds
+            .chunks_exact(SHARED)
+            .zip(cells)
+            .filter(move |(_, coefficient)| wanted(**coefficient))
+            .flat_map(|(cell, c)| cell.iter().map(move |&r| (r, c / SHARED as f64)))
     }
 
     /// A grid of as many thresholds, spread so that each cell holds as much of the cube root of the
@@ -135,10 +142,5 @@ impl Operators {
     /// Count of columns: the elastic one and one per cell.
     pub fn columns(&self) -> usize {
         self.thresholds.len() / SHARED + 1
-    }
-
-    /// The thresholds that the input reaches by itself.
-    pub fn within(&self) -> &[f64] {
-        &self.thresholds[..self.edges.len() * SHARED]
     }
 }

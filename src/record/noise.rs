@@ -15,6 +15,11 @@ pub struct Noise {
     pub repeated: bool,
 }
 
+/// What a sample counts for in a mean whose neighbours vary with it.
+pub fn independence(autoregression: f64) -> f64 {
+    (1.0 - autoregression) / (1.0 + autoregression)
+}
+
 /// Noise of a residual that nothing repeats in.
 ///
 /// Its own variance and correlation of neighbours, unless the fast part of its spectrum belongs to
