@@ -301,16 +301,25 @@ fn refinements_are_neutral_at_the_start_and_acting_once_refined() {
             assert_eq!(refined.len(), start.len(), "{name}");
             for ((p, from), to) in cause.parameters().iter().zip(&start).zip(&refined) {
                 match p.neutral {
-                    Some(_) => assert!(
-                        p.neutral == Some(*from)
-                            && p.neutral != Some(*to)
-                            && (p.lower..=p.upper).contains(to),
+                    Some(neutral) if neutral == *from => assert!(
+                        *to != neutral && (p.lower..=p.upper).contains(to),
                         "{name}.{}: {from}, refined {to}",
                         p.name
                     ),
-                    None => assert_eq!(from, to, "{name}.{}", p.name),
+                    // No refinement, or one that this shape has from its start.
+                    _ => assert_eq!(from, to, "{name}.{}", p.name),
                 }
             }
+        }
+        let glossary = cause.parameters().iter();
+        let refinements = glossary.enumerate().filter(|(_, p)| p.neutral.is_some());
+        for (i, p) in refinements {
+            let mut shapes = cause.starts(&scale).into_iter();
+            assert!(
+                shapes.any(|start| p.neutral == Some(start[i])),
+                "{name}.{} is in every shape: no refinement",
+                p.name
+            );
         }
     }
 }
@@ -367,6 +376,7 @@ fn a_vanished_law_answers_nothing_to_the_last_bit() {
             cause.remember(&values, &now, &mut memory);
             let limit = cause.slip_limit(&values, &now, &memory);
             assert_eq!(limit, SlipLimit::UNCHANGED, "{}", cause.name());
+            assert_eq!(cause.sticking(&values), 0.0, "{}", cause.name());
             for response in responses(cause, &values, &memory, &now) {
                 assert_eq!(response.value, 0.0, "{}", cause.name());
                 assert_eq!(

@@ -223,3 +223,40 @@ fn a_falling_limit_lets_go_at_held_slip_and_loses_what_was_stored() -> Result<()
     assert_eq!(network.force(), -2.0);
     Ok(())
 }
+
+#[test]
+fn a_slider_at_rest_holds_more_falls_as_it_slides_and_sticks_anew() -> Result<(), JointError> {
+    let sliders = Sliders::new(vec![2.0], vec![1.0], 0.0)?;
+    let mut network = Network::new(&sliders).sticking(0.5);
+    let mut go = |slip: f64| {
+        network.begin(SlipLimit::UNCHANGED);
+        let lost = network.accept(slip);
+        (network.force(), lost)
+    };
+    assert_eq!(go(1.4), (2.8, 0.0), "above the 2 N at which it slides");
+    let (force, lost) = go(1.6);
+    assert!((force - 3.0).abs() < 1e-15 && (lost - 0.3).abs() < 1e-12);
+    // From 3 N to 2 N at held slip: 9/4 J − 1 J of stored energy goes.
+    assert_eq!(go(1.6), (2.0, 1.25));
+    assert_eq!(go(1.7).0, 2.0, "it slides on at 2 N");
+    assert!((go(1.6).0 - 1.8).abs() < 1e-12);
+    assert_eq!(go(1.75).0, 2.0, "a wiggle is no rest");
+    assert!((go(1.05).0 - 0.6).abs() < 1e-12);
+    assert!(
+        (go(2.2).0 - 2.9).abs() < 1e-12,
+        "after a rest it holds 3 N again"
+    );
+
+    let mut state = Vec::new();
+    network.save(&mut state);
+    assert_eq!(state.len(), network.state_length());
+    let mut other = Network::new(&sliders).sticking(0.5);
+    other.restore(&state);
+    for slip in [2.4, 2.5, 0.0, 3.0] {
+        network.begin(SlipLimit::UNCHANGED);
+        other.begin(SlipLimit::UNCHANGED);
+        assert_eq!(network.accept(slip), other.accept(slip));
+        assert_eq!(network.force(), other.force());
+    }
+    Ok(())
+}

@@ -90,7 +90,7 @@ pub trait Cause: Effect {
     /// trying; the search scales the amplitude itself.
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
     /// Values from which refinements of the law that are neutral so far are fitted as well; the same
-    /// values where there are none.
+    /// values where there are none, or where a shape has them from its start.
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         values.to_vec()
     }

@@ -5,7 +5,8 @@ use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::exp;
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces that are higher after each reversal until the surfaces have slid,
+/// Break-free forces that are higher until the surfaces have slid: of each contact by itself, until its
+/// own breakaway (d = 0, see [`sticking`](crate::joint::sticking)), or of all of them together,
 /// `n = 1 + a exp(−(s/d)²)` with s the slip since the last reversal.
 pub struct StaticFrictionDrop;
 
@@ -24,13 +25,21 @@ static PARAMETERS: [Parameter; 2] = [
         name: "breakaway_distance",
         symbol: "d",
         unit: "m",
-        lower: 1e-12,
+        lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
-        neutral: None,
-        meaning: "slip after a reversal over which the excess is lost",
+        neutral: Some(0.0),
+        meaning: "slip after a reversal over which all contacts lose the excess together; 0: each at its own breakaway",
     },
 ];
+
+/// Excess of the contacts' own that a search starts from: what it does is far from proportional.
+const OWN_EXCESS: f64 = 0.15;
+
+/// Distances over which contacts are tried as letting go together, as shares of the largest
+/// displacement: one beside contacts of their own, one after them.
+const SHORT: f64 = 0.3;
+const LONG: f64 = 1.2;
 
 /// Way back that counts as a reversal, as a share of the widest slip so far: noise turns back all
 /// the time.
@@ -45,6 +54,13 @@ impl Effect for StaticFrictionDrop {
     }
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
+    }
+    /// Together or each by itself: no small step leads from one to the other.
+    fn keeps_side(&self, parameter: usize) -> bool {
+        parameter == 1
+    }
+    fn jumps_with(&self, parameter: usize) -> bool {
+        parameter == 0
     }
     /// Slip at the last reversal, direction since, farthest slip since, lowest and highest slip.
     fn memory(&self) -> usize {
@@ -71,7 +87,13 @@ impl Effect for StaticFrictionDrop {
             }
         }
     }
+    fn sticking(&self, values: &[f64]) -> f64 {
+        if values[1] > 0.0 { 0.0 } else { values[0] }
+    }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
+        if values[1] <= 0.0 {
+            return SlipLimit::UNCHANGED;
+        }
         let slid = (last.slip - memory[0]) / values[1];
         let limit = 1.0 + values[0] * exp(-slid * slid);
         SlipLimit {
@@ -93,7 +115,7 @@ impl Cause for StaticFrictionDrop {
                 "preload_loss",
             ],
             separated_by: "Several frequencies: weakening follows the rate, this the slid distance; minor loops inside a major one are not congruent; a macroslip test in displacement shows the peak above the plateau.",
-            formula: "phi = phi_0 [1 + a exp(-(s/d)^2)], s the slip since the last reversal",
+            formula: "each contact holds (1 + a) phi_0 at rest and phi_0 once it slides (d = 0), or phi = phi_0 [1 + a exp(-(s/d)^2)], s the slip since the last reversal",
             source: "Static against kinetic friction with a breakaway distance; Rabinowicz 1951; slip-weakening law.",
         }
     }
@@ -101,10 +123,17 @@ impl Cause for StaticFrictionDrop {
         &StaticFrictionDrop
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        [0.05, 0.15, 0.4, 0.8, 1.5]
-            .iter()
-            .map(|share| vec![0.02, share * scale.displacement])
-            .collect()
+        vec![
+            vec![OWN_EXCESS, 0.0],
+            vec![0.02, SHORT * scale.displacement],
+        ]
+    }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        let [excess, distance] = *values else {
+            return values.to_vec();
+        };
+        let together = LONG * scale.displacement;
+        vec![excess, if distance > 0.0 { distance } else { together }]
     }
 }
 

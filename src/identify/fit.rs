@@ -8,6 +8,7 @@ use super::problem::{Prediction, Problem};
 use super::rows::each_row;
 use super::series;
 use super::slopes::{Slope, hold, moved, slopes};
+use super::strides::strided;
 use crate::joint::effect::{Acting, Place};
 
 /// A fitted model.
@@ -161,7 +162,18 @@ impl Steps {
     }
 }
 
-fn refine(
+/// Steps from the given start; where the answer follows a value in small jumps, strides over them and
+/// steps again.
+fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps: Steps) -> Fit {
+    let fit = descend(problem, coefficients, effects, steps);
+    let farther = strided(problem, fit.clone());
+    if farther.misfit >= fit.misfit {
+        return fit;
+    }
+    descend(problem, farther.coefficients, farther.effects, steps)
+}
+
+fn descend(
     problem: &Problem,
     mut coefficients: Vec<f64>,
     mut effects: Vec<Acting>,
@@ -269,7 +281,7 @@ fn normal(
 
 /// Dictionary coefficients that suit the effects as they are: the joint without an effect is not the
 /// joint beside it.
-fn projected(
+pub(super) fn projected(
     problem: &Problem,
     coefficients: &[f64],
     effects: &[Acting],

@@ -1,12 +1,13 @@
 //! The inner loops of a march, 32 operators at a time: sums run in 32 lanes whose order is fixed, so
 //! that every processor gives the same digits, and are compiled for the widest vectors it has.
 
+use super::bonds::Bonds;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Operators handled together; a bank is filled up to a multiple of it.
 pub const LANES: usize = 32;
 
-type Lanes = [f64; LANES];
+pub(super) type Lanes = [f64; LANES];
 
 /// The operators of one march, by column.
 #[derive(Debug, Clone)]
@@ -16,6 +17,8 @@ pub struct Bank {
     weights: Vec<Lanes>,
     positions: Vec<Lanes>,
     trial: Vec<Lanes>,
+    /// What is left of each operator's excess, where those that rest hold more.
+    bonds: Option<Bonds>,
 }
 
 #[inline(always)]
@@ -29,7 +32,7 @@ fn upper(a: f64, b: f64) -> f64 {
 }
 
 #[inline(always)]
-fn total(lanes: Lanes) -> f64 {
+pub(super) fn total(lanes: Lanes) -> f64 {
     let (mut sum, mut half) = (lanes, LANES / 2);
     while half > 0 {
         for i in 0..half {
@@ -58,7 +61,14 @@ impl Bank {
             trial: vec![[0.0; LANES]; thresholds.len()],
             thresholds,
             weights,
+            bonds: None,
         }
+    }
+
+    /// The bank, virgin still, of operators that hold more by this share while they rest.
+    pub fn sticking(mut self, excess: f64) -> Bank {
+        self.bonds = (excess > 0.0).then(|| Bonds::new(excess, self.thresholds.len()));
+        self
     }
 
     /// Positions at the last accepted sample, in the order of the thresholds.
@@ -66,51 +76,62 @@ impl Bank {
         self.positions.as_flattened()
     }
 
-    fn columns_mut(&mut self) -> (Arch, Columns<'_>) {
+    fn columns_mut(&mut self) -> (Arch, Columns<'_>, Option<&mut Bonds>) {
         let columns = Columns {
             thresholds: &self.thresholds,
             weights: &self.weights,
             positions: &self.positions,
             trial: &mut self.trial,
         };
-        (self.arch, columns)
+        (self.arch, columns, self.bonds.as_mut())
     }
 
     /// Plays tried at an input: Σ c P and its tangent; `limits` scale the thresholds by direction.
     pub fn plays(&mut self, input: f64, limits: (f64, f64)) -> (f64, f64) {
-        let (arch, columns) = self.columns_mut();
-        arch.dispatch(Plays(columns, input, limits))
+        let (arch, columns, bonds) = self.columns_mut();
+        match bonds {
+            None => arch.dispatch(Plays(columns, input, limits)),
+            Some(bonds) => arch.dispatch(bonds.plays(columns, input, limits)),
+        }
     }
 
     /// Stops tried after an increment of the input: Σ w s and its tangent.
     pub fn stops(&mut self, increment: f64, limits: (f64, f64)) -> (f64, f64) {
-        let (arch, columns) = self.columns_mut();
-        arch.dispatch(Stops(columns, increment, limits))
+        let (arch, columns, bonds) = self.columns_mut();
+        match bonds {
+            None => arch.dispatch(Stops(columns, increment, limits)),
+            Some(bonds) => arch.dispatch(bonds.stops(columns, increment, limits)),
+        }
     }
 
     /// Energy that accepting the plays last tried dissipates \[J\].
     pub fn slid_plays(&mut self, limits: (f64, f64)) -> f64 {
-        let (arch, columns) = self.columns_mut();
+        let (arch, columns, _) = self.columns_mut();
         arch.dispatch(SlidPlays(columns, limits))
     }
 
     /// Energy that accepting the stops last tried after an increment dissipates \[J\].
     pub fn slid_stops(&mut self, increment: f64) -> f64 {
-        let (arch, columns) = self.columns_mut();
+        let (arch, columns, _) = self.columns_mut();
         arch.dispatch(SlidStops(columns, increment))
     }
 
     /// Accepts what was last tried.
     pub fn accept(&mut self) {
+        let (arch, columns, bonds) = self.columns_mut();
+        if let Some(bonds) = bonds {
+            bonds.wear(arch, columns);
+        }
         std::mem::swap(&mut self.positions, &mut self.trial);
     }
 }
 
-struct Columns<'a> {
-    thresholds: &'a [Lanes],
-    weights: &'a [Lanes],
-    positions: &'a [Lanes],
-    trial: &'a mut [Lanes],
+/// The columns of a bank, and the one that a trial fills.
+pub(super) struct Columns<'a> {
+    pub thresholds: &'a [Lanes],
+    pub weights: &'a [Lanes],
+    pub positions: &'a [Lanes],
+    pub trial: &'a mut [Lanes],
 }
 
 struct Plays<'a>(Columns<'a>, f64, (f64, f64));
@@ -138,7 +159,7 @@ impl NullaryFnOnce for Plays<'_> {
 }
 
 #[inline(always)]
-fn sum(trial: &[Lanes], weights: &[Lanes]) -> f64 {
+pub(super) fn sum(trial: &[Lanes], weights: &[Lanes]) -> f64 {
     let mut output = [0.0; LANES];
     for (t, w) in trial.iter().zip(weights) {
         for i in 0..LANES {

@@ -81,6 +81,8 @@ impl<'a> March<'a> {
             false => &coefficients[1..=operators.edges.len()],
         };
         let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
+        let sticking = effects.iter().map(|a| a.effect.sticking(&a.values)).sum();
+        let bank = bank.sticking(sticking);
         March {
             operators,
             elastic: coefficients[0],

@@ -2,6 +2,7 @@
 //! non-negative least squares and joint refits, the parametric families, and the intervals of what
 //! they give.
 
+mod bonds;
 mod bracket;
 pub mod exported;
 pub mod family;
@@ -21,6 +22,7 @@ pub mod score;
 pub mod seed;
 pub mod series;
 mod slopes;
+mod strides;
 pub mod table;
 mod walk;
 

@@ -12,6 +12,9 @@ pub(super) struct Slope {
     pub(super) values: Vec<Vec<f64>>,
 }
 
+/// Share of a value over which a difference is taken where the answer follows it in small jumps.
+const WIDE: f64 = 0.05;
+
 pub(super) fn slopes(
     problem: &Problem,
     coefficients: &[f64],
@@ -25,7 +28,11 @@ pub(super) fn slopes(
             if parameter.neutral == Some(value) {
                 continue;
             }
-            let mut unit = 1e-4
+            let share = match acting.effect.jumps_with(p) {
+                true => WIDE,
+                false => 1e-4,
+            };
+            let mut unit = share
                 * match value.abs() {
                     // No size to go by.
                     0.0 => 1e-6 * (parameter.upper - parameter.lower).min(1.0),
@@ -81,7 +88,8 @@ pub(super) fn hold(
         let value = effects[slope.effect].values[slope.parameter];
         let outward = step * slope.unit;
         let acting = effects[slope.effect].effect;
-        let across = acting.keeps_side(slope.parameter) && value * (value + outward) < 0.0;
+        let reached = value * (value + outward) <= 0.0;
+        let across = acting.keeps_side(slope.parameter) && value != 0.0 && reached;
         let below = value <= parameter.lower && outward < 0.0;
         let above = value >= parameter.upper && outward > 0.0;
         if across || below || above {

@@ -113,6 +113,11 @@ pub trait Effect: Send + Sync {
     fn keeps_side(&self, _parameter: usize) -> bool {
         false
     }
+    /// True where the answer follows a value in many small jumps, as of contacts that let go one by
+    /// one: its slope is told by wide differences, and a search goes on in strides.
+    fn jumps_with(&self, _parameter: usize) -> bool {
+        false
+    }
     /// Count of numbers of history it keeps.
     fn memory(&self) -> usize {
         0
@@ -122,6 +127,11 @@ pub trait Effect: Send + Sync {
     /// [`Place::SlipLimit`]: multipliers from the last accepted situation and the history.
     fn slip_limit(&self, _values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
         SlipLimit::UNCHANGED
+    }
+    /// [`Place::SlipLimit`]: share by which each contact of the network that rests holds more than
+    /// once it slides, see [`sticking`](super::sticking).
+    fn sticking(&self, _values: &[f64]) -> f64 {
+        0.0
     }
     /// [`Place::BesideSlip`]: force [N] over slip u [m].
     fn beside_slip(&self, _values: &[f64], _slip: f64, _memory: &[f64]) -> Response {

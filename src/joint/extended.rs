@@ -101,7 +101,7 @@ impl Extended {
             drive,
             flexibility: 1.0 / series_stiffness,
             reach: sliders.slip_at.last().copied().unwrap_or(1e-6),
-            network: Network::new(sliders),
+            network: Network::new(sliders).sticking(laws.sticking()),
             ledger: Ledger::new(&laws),
             laws,
             now: Situation::default(),

@@ -11,6 +11,7 @@ pub mod parameters;
 pub mod play;
 pub mod sensitivity;
 pub mod simulation;
+pub mod sticking;
 mod turnings;
 pub mod virgin;
 

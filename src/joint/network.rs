@@ -2,6 +2,7 @@
 
 use super::density::Sliders;
 use super::effect::SlipLimit;
+use super::sticking::{FALL, left};
 
 /// A finite network in motion. Slider j carries the force `f_j`, and
 ///
@@ -15,6 +16,8 @@ pub struct Network {
     sliders: Vec<Slider>,
     elastic: f64,
     slip: f64,
+    /// Share by which a slider that rests holds more than one that slides.
+    excess: f64,
     /// Limit of the open step, and what it lost by letting sliders go.
     limit: SlipLimit,
     let_go: f64,
@@ -26,8 +29,13 @@ pub struct Network {
 struct Slider {
     /// w \[N/m\].
     weight: f64,
-    /// w d \[N\].
+    /// w d \[N\], of the slider once it slides.
     strength: f64,
+    /// What it holds in the open step \[N\], no less.
+    holds: f64,
+    /// Share of the excess left, as last accepted, and in the open step.
+    bond: f64,
+    open_bond: f64,
     /// f \[N\] as last accepted.
     force: f64,
     /// f \[N\] after letting go at the limit of the open step.
@@ -38,7 +46,7 @@ impl Slider {
     /// Force if it stuck, and the force that it can carry.
     fn after(&self, increment: f64, limit: SlipLimit) -> (f64, f64) {
         let stuck = self.relaxed + self.weight * increment;
-        (stuck, clamped(stuck, self.strength, limit))
+        (stuck, clamped(stuck, self.holds, limit))
     }
 
     /// Force and stiffness. At its limit a slider slides if pushed on and sticks if pushed back.
@@ -50,8 +58,43 @@ impl Slider {
             -limit.negative
         };
         // No short circuit: this is the innermost loop, and a wrong guess costs more.
-        let sticks = (stuck == force) & (force != self.strength * share);
+        let sticks = (stuck == force) & (force != self.holds * share);
         (force, if sticks { self.weight } else { 0.0 })
+    }
+
+    /// Lets go what stands above the limit: with an excess the limit falls as it slides, `f' = φ + e −
+    /// β (f − f')` down to φ.
+    fn relax(&mut self, limit: SlipLimit, excess: f64) {
+        let share = if self.force < 0.0 {
+            limit.negative
+        } else {
+            limit.positive
+        };
+        let kinetic = self.strength * share;
+        let full = kinetic * excess;
+        let stands = self.force.abs();
+        let fallen = (kinetic + full * self.bond - FALL * stands) / (1.0 - FALL);
+        let rests = stands.min(fallen.max(kinetic));
+        self.open_bond = left(self.bond, stands - rests, full, rests / kinetic);
+        self.holds = self.strength * (1.0 + excess * self.open_bond);
+        self.relaxed = rests.copysign(self.force);
+    }
+
+    /// Takes the slide of an accepted step off the excess.
+    fn wear(&mut self, slide: f64, limit: SlipLimit, excess: f64) {
+        let share = if self.force < 0.0 {
+            limit.negative
+        } else {
+            limit.positive
+        };
+        let kinetic = self.strength * share;
+        self.bond = left(
+            self.open_bond,
+            slide,
+            kinetic * excess,
+            self.force.abs() / kinetic,
+        );
+        self.open_bond = self.bond;
     }
 }
 
@@ -80,6 +123,9 @@ impl Network {
         let sliders_at_rest = pairs.map(|(weight, slip_at)| Slider {
             weight: *weight,
             strength: weight * slip_at,
+            holds: weight * slip_at,
+            bond: 1.0,
+            open_bond: 1.0,
             force: 0.0,
             relaxed: 0.0,
         });
@@ -87,10 +133,22 @@ impl Network {
             sliders: sliders_at_rest.collect(),
             elastic: sliders.elastic,
             slip: 0.0,
+            excess: 0.0,
             limit: SlipLimit::UNCHANGED,
             let_go: 0.0,
             gross: 0.0,
         }
+    }
+
+    /// The network, virgin still, of sliders that hold more by this share while they rest; each
+    /// falls to its limit with its own slide, at the end of the steps in which it slides (see
+    /// [`sticking`](super::sticking)).
+    pub fn sticking(mut self, excess: f64) -> Network {
+        self.excess = excess.max(0.0);
+        for slider in &mut self.sliders {
+            slider.holds = slider.strength * (1.0 + self.excess);
+        }
+        self
     }
 
     /// Slip displacement u \[m\] last accepted.
@@ -124,7 +182,7 @@ impl Network {
         } else {
             self.limit.negative
         };
-        self.sliders.iter().map(|s| s.strength).sum::<f64>() * share
+        self.sliders.iter().map(|s| s.holds).sum::<f64>() * share
     }
 
     /// Opens a step under `limit`: sliders above it let go at held u. Undone by the next `begin`.
@@ -134,7 +192,7 @@ impl Network {
             positive: limit.positive.max(0.0),
             negative: limit.negative.max(0.0),
         };
-        if limit == self.limit {
+        if limit == self.limit && self.excess == 0.0 {
             return; // relaxed already, by the last step
         }
         self.limit = limit;
@@ -142,8 +200,12 @@ impl Network {
         self.gross = 0.0;
         for slider in &mut self.sliders {
             let held = slider.force;
-            let left = clamped(held, slider.strength, limit);
-            slider.relaxed = left;
+            if self.excess > 0.0 {
+                slider.relax(limit, self.excess);
+            } else {
+                slider.relaxed = clamped(held, slider.strength, limit);
+            }
+            let left = slider.relaxed;
             self.let_go += 0.5 * (held - left) * (held + left) / slider.weight;
             self.gross += left.abs();
         }
@@ -177,6 +239,9 @@ impl Network {
             dissipated += force * (stuck - force) / slider.weight;
             self.gross += force.abs();
             (slider.force, slider.relaxed) = (force, force);
+            if self.excess > 0.0 {
+                slider.wear((stuck - force).abs(), limit, self.excess);
+            }
         }
         self.slip = slip;
         self.let_go = 0.0;
@@ -191,19 +256,23 @@ impl Network {
         } else {
             -self.limit.negative
         };
-        let sliding = |slider: &&Slider| slider.force == slider.strength * share;
+        let sliding = |slider: &&Slider| slider.force == slider.holds * share;
         self.sliders.iter().filter(sliding).map(|s| s.force).sum()
     }
 
     /// Length of what [`Network::save`] appends.
     pub fn state_length(&self) -> usize {
-        self.sliders.len() + 1
+        let bonds = if self.excess > 0.0 { 2 } else { 1 };
+        bonds * self.sliders.len() + 1
     }
 
-    /// Appends slip and slider forces.
+    /// Appends slip, slider forces, and what is left of their excess where they have one.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.push(self.slip);
         state.extend(self.sliders.iter().map(|slider| slider.force));
+        if self.excess > 0.0 {
+            state.extend(self.sliders.iter().map(|slider| slider.bond));
+        }
     }
 
     /// Puts back what [`Network::save`] appended; `state` has [`Network::state_length`] numbers.
@@ -214,6 +283,10 @@ impl Network {
         self.slip = *slip;
         for (slider, force) in self.sliders.iter_mut().zip(forces) {
             slider.force = *force;
+        }
+        let bonds = forces.iter().skip(self.sliders.len());
+        for (slider, bond) in self.sliders.iter_mut().zip(bonds) {
+            slider.bond = *bond;
         }
         // No limit equals this one: the next step relaxes anew.
         self.limit = SlipLimit {

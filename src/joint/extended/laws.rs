@@ -78,6 +78,14 @@ impl Laws {
             })
     }
 
+    /// Sum of what contacts at rest hold more.
+    pub fn sticking(&self) -> f64 {
+        let each = self
+            .at(Place::SlipLimit)
+            .map(|(law, _)| law.acting.effect.sticking(&law.acting.values));
+        each.sum()
+    }
+
     /// Force beside the network at slip u, `Σ p(u)`.
     pub fn beside_slip(&self, slip: f64) -> Response {
         self.sum(Place::BesideSlip, |law, memory| {
