@@ -143,6 +143,7 @@ fn explained() -> Findings {
             ("bolt-1".to_owned(), 4000, "ab".repeat(32)),
             ("bolt-2".to_owned(), 2000, "cd".repeat(32)),
         ],
+        held_out: vec![vec![(1.0, 1.5), (3.25, 4.0)], vec![]],
         causes: vec![pinning],
         candidates,
         noise: NoiseFinding {
@@ -353,8 +354,8 @@ fn json_follows_the_schema_field_by_field() {
         "separability": [],
         "dummy": [],
         "records": [
-            {"name": "bolt-1", "samples": 4000, "sha256": "ab".repeat(32)},
-            {"name": "bolt-2", "samples": 2000, "sha256": "cd".repeat(32)},
+            {"name": "bolt-1", "samples": 4000, "sha256": "ab".repeat(32), "held_out": [[1.0, 1.5], [3.25, 4.0]]},
+            {"name": "bolt-2", "samples": 2000, "sha256": "cd".repeat(32), "held_out": []},
         ],
         "joint_parameters": [
             {"name": "slip_force", "value": 4123.0, "unit": "N", "interval": [3930.0, 4310.0]},

@@ -2,14 +2,14 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
-use crate::joint::elementary::expm1;
+use crate::joint::elementary::{exp, expm1};
 use crate::joint::parameters::Parameter;
 
-/// A Kelvin element in series, `τ ṡ = J F − s`, solved exactly for a force that goes straight
-/// through each step.
+/// A Kelvin element in series, `τ ṡ = J F − s`, or a chain of [`CHAIN`] whose time constants are spread
+/// evenly over decades; solved exactly for a force that goes straight through each step.
 pub struct Creep;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "compliance",
         symbol: "J",
@@ -30,7 +30,37 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "time in which the rest of the creep falls to 1/e",
     },
+    Parameter {
+        name: "spread",
+        symbol: "d",
+        unit: "1",
+        lower: 0.0,
+        upper: 3.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "decades by which the fastest and the slowest part lie off the time constant; 0: one time constant",
+    },
 ];
+
+/// Elements of a chain with spread time constants: two in a decade where it is one to each side.
+const CHAIN: usize = 5;
+
+/// Compliance and time constant of every element.
+fn elements(values: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+    let [compliance, time_constant, spread] = [values[0], values[1], values[2]];
+    let (count, ratio) = match spread > 0.0 {
+        true => (CHAIN, exp(DECADE * spread / (CHAIN / 2) as f64)),
+        false => (1, 1.0),
+    };
+    let fastest = (0..count / 2).fold(time_constant, |time, _| time / ratio);
+    let times = std::iter::successors(Some(fastest), move |time| Some(time * ratio));
+    times
+        .take(count)
+        .map(move |time| (compliance / count as f64, time))
+}
+
+/// ln 10.
+const DECADE: f64 = std::f64::consts::LN_10;
 
 /// What a first-order lag keeps of its value, and takes of its input's old and new value, over a
 /// step of `x` time constants in which the input goes straight; the three add up to 1.
@@ -55,26 +85,37 @@ impl Effect for Creep {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    /// Displacement of the element and force, at the last sample.
+    /// Force at the last sample, and the displacement of every element.
     fn memory(&self) -> usize {
-        2
+        1 + CHAIN
     }
     fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
-        memory[0] = self.in_series(values, now.force, now.step, memory).value;
-        memory[1] = now.force;
-    }
-    fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
-        let [compliance, time_constant] = [values[0], values[1]];
-        let [kept, old, new] = lag(step / time_constant);
-        Response {
-            value: kept * memory[0] + compliance * (old * memory[1] + new * force),
-            slope: compliance * new,
-            damping: 0.0,
+        if let [last, crept @ ..] = memory {
+            for ((compliance, time_constant), crept) in elements(values).zip(crept) {
+                let [kept, old, new] = lag(now.step / time_constant);
+                *crept = kept * *crept + compliance * (old * *last + new * now.force);
+            }
+            *last = now.force;
         }
     }
-    /// The element's spring, `s²/(2J)`; its dashpot has the rest.
+    fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
+        let mut sum = Response::default();
+        if let [last, crept @ ..] = memory {
+            for ((compliance, time_constant), crept) in elements(values).zip(crept) {
+                let [kept, old, new] = lag(step / time_constant);
+                sum.value += kept * crept + compliance * (old * last + new * force);
+                sum.slope += compliance * new;
+            }
+        }
+        sum
+    }
+    /// The elements' springs, `Σ s²/(2J)`; their dashpots have the rest.
     fn stored_energy(&self, values: &[f64], _now: &Situation, memory: &[f64]) -> Option<f64> {
-        let stored = 0.5 * memory[0] * memory[0] / values[0];
+        let crept = memory.iter().skip(1);
+        let each = elements(values).zip(crept);
+        let stored: f64 = each
+            .map(|((compliance, _), s)| 0.5 * s * s / compliance)
+            .sum();
         Some(if values[0] > 0.0 { stored } else { 0.0 })
     }
 }
@@ -91,8 +132,8 @@ impl Cause for Creep {
                 "ac_coupling",
             ],
             separated_by: "Two decades of frequency: the loss of a dashpot goes on growing, that of creep turns; a hold under load against one at zero force: drift knows no difference.",
-            formula: "U = u + F/K_1 + s, tau ds/dt = J F - s",
-            source: "Kelvin-Voigt element in series, the standard linear solid.",
+            formula: "U = u + F/K_1 + s, tau ds/dt = J F - s; with a spread, five such parts of J/5 and tau 10^(-d) to tau 10^d",
+            source: "Kelvin-Voigt element in series, the standard linear solid; a chain of them for a spectrum of retardation times (Ferry 1980).",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
@@ -108,8 +149,11 @@ impl Cause for Creep {
         by_period
             .iter()
             .chain(&by_duration)
-            .map(|time_constant| vec![compliance, *time_constant])
+            .map(|time_constant| vec![compliance, *time_constant, 0.0])
             .collect()
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        vec![values[0], values[1], 0.5]
     }
 }
 
@@ -119,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_held_force_creeps_to_its_end_by_the_exponential() {
-        let (values, mut memory) = ([0.5, 2.0], [0.0; 2]);
+        let (values, mut memory) = ([0.5, 2.0, 0.0], [0.0; 1 + CHAIN]);
         for step in [0.0, 0.3, 0.7, 1.0] {
             let now = Situation {
                 step,
@@ -128,13 +172,34 @@ mod tests {
             };
             Creep.remember(&values, &now, &mut memory);
         }
-        assert!((memory[0] - 2.0 * (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
-        assert_eq!(Creep.in_series(&values, 9.0, 0.0, &memory).value, memory[0]);
+        assert!((memory[1] - 2.0 * (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
+        assert_eq!(Creep.in_series(&values, 9.0, 0.0, &memory).value, memory[1]);
+    }
+
+    #[test]
+    fn a_spread_creeps_sooner_and_ends_later_and_to_the_same() {
+        let crept = |spread: f64, after: f64| {
+            let values = [0.5, 2.0, spread];
+            let mut memory = [0.0; 1 + CHAIN];
+            for step in [0.0, after] {
+                let now = Situation {
+                    step,
+                    force: 4.0,
+                    ..Situation::default()
+                };
+                Creep.remember(&values, &now, &mut memory);
+            }
+            Creep.in_series(&values, 4.0, 0.0, &memory).value
+        };
+        assert!(crept(1.0, 0.2) > 2.0 * crept(0.0, 0.2));
+        assert!(crept(1.0, 6.0) < 0.95 * crept(0.0, 6.0));
+        assert!((crept(1.0, 1e4) - 2.0).abs() < 1e-12);
+        assert!((crept(1e-9, 3.0) - crept(0.0, 3.0)).abs() < 1e-8);
     }
 
     #[test]
     fn a_ramp_lags_by_its_rate_times_the_time_constant() {
-        let (values, mut memory) = ([0.5, 0.01], [0.0; 2]);
+        let (values, mut memory) = ([0.5, 0.01, 0.0], [0.0; 1 + CHAIN]);
         for sample in 1..=100 {
             let now = Situation {
                 step: 0.01,
@@ -143,7 +208,7 @@ mod tests {
             };
             Creep.remember(&values, &now, &mut memory);
         }
-        assert!((memory[0] - 0.5 * (1.0 - 0.01)).abs() < 1e-14);
+        assert!((memory[1] - 0.5 * (1.0 - 0.01)).abs() < 1e-14);
     }
 
     #[test]

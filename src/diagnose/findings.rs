@@ -156,6 +156,9 @@ pub struct Findings {
     pub unit: String,
     /// Records in order, with their sample counts and content hashes (SHA-256 hex).
     pub records: Vec<(String, usize, String)>,
+    /// For each record the stretches that were held out, first and last time \[s\] (sample number
+    /// where a record has no time).
+    pub held_out: Vec<Vec<(f64, f64)>>,
     /// Named causes, in order of gain.
     pub causes: Vec<NamedCause>,
     /// Whole catalogue.

@@ -46,6 +46,22 @@ pub fn edges(input: &[f64]) -> Vec<usize> {
     edges
 }
 
+/// First and last time of every stretch of held-out samples, record by record.
+pub fn stretches(bench: &Bench) -> Vec<Vec<(f64, f64)>> {
+    let each = bench.held.iter().zip(&bench.whole.records);
+    each.map(|(held, record)| {
+        let runs = held.chunk_by(|a, b| a == b);
+        let ends = runs.scan(0, |end, run| {
+            *end += run.len();
+            Some((run[0], *end - run.len(), *end - 1))
+        });
+        ends.filter(|(held, ..)| *held)
+            .map(|(_, first, last)| (record.time[first], record.time[last]))
+            .collect()
+    })
+    .collect()
+}
+
 /// Squared errors in each held-out cycle (or run of samples without cycles), and their count.
 fn blocks(bench: &Bench, predictions: &[Prediction]) -> Vec<(f64, f64)> {
     let mut blocks = Vec::new();

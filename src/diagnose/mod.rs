@@ -179,6 +179,7 @@ fn assemble(
             .iter()
             .map(|r| (r.name.clone(), r.len(), String::new()))
             .collect(),
+        held_out: gain::stretches(bench),
         causes,
         candidates,
         noise: noise(bench, unit),

@@ -58,21 +58,20 @@ impl Bonds {
     }
 }
 
-/// How an operator that stands at `stands` on one side of its `limit` slides.
+/// The slide of an operator that stands `stands` away from rest under limits `high` and `low`, and how
+/// much of an increment of `stands` it follows.
 #[inline(always)]
-fn slid(stands: f64, limit: f64, excess: f64) -> f64 {
-    slide(stands - limit - excess, excess)
+fn slid(stands: f64, threshold: f64, (up, down): (f64, f64), excess: f64) -> (f64, f64) {
+    let limit = threshold * if stands < 0.0 { down } else { up };
+    let (size, full) = (stands.abs(), excess * limit);
+    let slide = slide(size - limit - full, full);
+    let fallen = if slide >= size - limit { 1.0 } else { FALLING };
+    let follows = if slide > 0.0 { fallen } else { 0.0 };
+    (slide.copysign(stands), follows)
 }
 
-/// Share of a slide's increment that is not from the excess falling.
-#[inline(always)]
-fn followed(slide: f64, stands: f64, limit: f64) -> f64 {
-    match slide > 0.0 {
-        false => 0.0,
-        true if slide >= stands - limit => 1.0,
-        true => 1.0 / (1.0 - FALL),
-    }
-}
+/// Slide per increment while the excess falls.
+const FALLING: f64 = 1.0 / (1.0 - FALL);
 
 pub(super) struct Plays<'a>(Columns<'a>, &'a Bonds, f64, (f64, f64));
 
@@ -81,18 +80,17 @@ impl NullaryFnOnce for Plays<'_> {
 
     #[inline(always)]
     fn call(self) -> (f64, f64) {
-        let Plays(at, bonds, input, (up, down)) = self;
+        let Plays(at, bonds, input, limits) = self;
         let mut tangent = [0.0; LANES];
-        for (k, trial) in at.trial.iter_mut().enumerate() {
+        let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
+        for ((trial, weight), ((position, threshold), left)) in
+            at.trial.iter_mut().zip(at.weights).zip(held)
+        {
             for i in 0..LANES {
-                let (threshold, full) = (at.thresholds[k][i], bonds.excess * bonds.left[k][i]);
-                let (high, low) = (threshold * up, threshold * down);
-                let stands = input - at.positions[k][i];
-                let forth = slid(stands, high, full * high);
-                let back = slid(-stands, low, full * low);
-                trial[i] = at.positions[k][i] + forth - back;
-                let moved = followed(forth, stands, high) + followed(back, -stands, low);
-                tangent[i] += at.weights[k][i] * moved;
+                let stands = input - position[i];
+                let (slide, follows) = slid(stands, threshold[i], limits, bonds.excess * left[i]);
+                trial[i] = position[i] + slide;
+                tangent[i] += weight[i] * follows;
             }
         }
         (sum(at.trial, at.weights), total(tangent))
@@ -106,18 +104,17 @@ impl NullaryFnOnce for Stops<'_> {
 
     #[inline(always)]
     fn call(self) -> (f64, f64) {
-        let Stops(at, bonds, increment, (up, down)) = self;
+        let Stops(at, bonds, increment, limits) = self;
         let mut tangent = [0.0; LANES];
-        for (k, trial) in at.trial.iter_mut().enumerate() {
+        let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
+        for ((trial, weight), ((position, threshold), left)) in
+            at.trial.iter_mut().zip(at.weights).zip(held)
+        {
             for i in 0..LANES {
-                let (threshold, full) = (at.thresholds[k][i], bonds.excess * bonds.left[k][i]);
-                let (high, low) = (threshold * up, threshold * down);
-                let stands = at.positions[k][i] + increment;
-                let forth = slid(stands, high, full * high);
-                let back = slid(-stands, low, full * low);
-                trial[i] = stands - forth + back;
-                let slid = followed(forth, stands, high) + followed(back, -stands, low);
-                tangent[i] += at.weights[k][i] * (1.0 - slid);
+                let stands = position[i] + increment;
+                let (slide, follows) = slid(stands, threshold[i], limits, bonds.excess * left[i]);
+                trial[i] = stands - slide;
+                tangent[i] += weight[i] * (1.0 - follows);
             }
         }
         (sum(at.trial, at.weights), total(tangent))
@@ -132,21 +129,19 @@ impl NullaryFnOnce for Wear<'_> {
     #[inline(always)]
     fn call(self) {
         let Wear(at, bonds) = self;
-        for (k, lanes) in bonds.left.iter_mut().enumerate() {
-            for (i, bond) in lanes.iter_mut().enumerate() {
-                let (from, to) = (at.positions[k][i], at.trial[k][i]);
-                let (slide, force, (up, down)) = match bonds.last {
-                    Tried::Plays(input, limits) => (to - from, input - to, limits),
-                    Tried::Stops(increment, limits) => (from + increment - to, to, limits),
-                };
-                let share = if force < 0.0 { down } else { up };
-                let limit = at.thresholds[k][i] * share;
-                *bond = left(
-                    *bond,
-                    slide.abs(),
-                    bonds.excess * limit,
-                    force.abs() / limit,
-                );
+        // A play's slide is its own motion, a stop's the input's less its own.
+        let (own, moved, from_input, (up, down)) = match bonds.last {
+            Tried::Plays(input, limits) => (1.0, 0.0, input, limits),
+            Tried::Stops(increment, limits) => (-1.0, increment, 0.0, limits),
+        };
+        let excess = bonds.excess;
+        let held = at.positions.iter().zip(&*at.trial).zip(at.thresholds);
+        for (lanes, ((from, to), threshold)) in bonds.left.iter_mut().zip(held) {
+            for i in 0..LANES {
+                let slide = own * (to[i] - from[i]) + moved;
+                let force = from_input - own * to[i];
+                let limit = threshold[i] * if force < 0.0 { down } else { up };
+                lanes[i] = left(lanes[i], slide.abs(), excess * limit, force.abs() / limit);
             }
         }
     }

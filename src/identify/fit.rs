@@ -162,10 +162,17 @@ impl Steps {
     }
 }
 
+/// Share of the misfit that the newest effect must have taken away for strides to be tried: less is
+/// what noise gives to any effect.
+const WORTH_STRIDES: f64 = 1e-3;
+
 /// Steps from the given start; where the answer follows a value in small jumps, strides over them and
 /// steps again.
 fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps: Steps) -> Fit {
     let fit = descend(problem, coefficients, effects, steps);
+    if fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
+        return fit;
+    }
     let farther = strided(problem, fit.clone());
     if farther.misfit >= fit.misfit {
         return fit;

@@ -49,9 +49,9 @@ pub fn render(findings: &Findings) -> Value {
         "next_experiment": next_experiment(findings),
         "separability": list(&findings.outlook.separability, separable),
         "dummy": list(&findings.outlook.dummy, dummy),
-        "records": list(&findings.records, |(name, samples, hash)| {
-            json!({ "name": name, "samples": samples, "sha256": hash })
-        }),
+        "records": findings.records.iter().zip(&findings.held_out).map(|((name, samples, hash), held)| {
+            json!({ "name": name, "samples": samples, "sha256": hash, "held_out": held })
+        }).collect::<Value>(),
         "joint_parameters": list(&findings.joint_parameters, estimate),
         "notes": findings.notes,
     })

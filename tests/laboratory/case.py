@@ -196,7 +196,10 @@ def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, 
 
 
 def record(staged):
-    """(records, what is true of them, style): the case as the laboratory's sensors write it."""
+    """(records, what is true of them, style): the case as the laboratory's sensors write it.
+
+    `heard` is the noise itself, time and error of every file: too long for truth.json.
+    """
     scene, sampled, level, rng = staged.scene, staged.sampled, staged.level, staged.rng
     drive_noise = 0.0 if rng.random() < 0.5 else float(0.05 * level * rng.uniform(0.2, 1.0))
     offset = float(rng.normal(0.0, 0.005)) if scene.by_force and rng.random() < 0.4 else 0.0
@@ -221,6 +224,7 @@ def record(staged):
             "lag_one_correlation": staged.noise.colour,
             "drive_rms_share": drive_noise,
         },
+        "heard": list(zip(sampled.time, heard, strict=True)),
         "drive": "force" if scene.by_force else "displacement",
         "peak_share_of_full_slip": staged.share,
         "peak": scene.peak,
@@ -264,5 +268,6 @@ def write_case(directory, records, truth, style):
         path = folder / f"test-{j}.csv"
         csvfile.write_record(path, *record, style, ["joint test", f"file {j} of {len(records)}"])
         paths.append(path)
-    (directory / "truth.json").write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
+    told = {key: value for key, value in truth.items() if key != "heard"}
+    (directory / "truth.json").write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
     return paths

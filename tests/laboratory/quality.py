@@ -190,8 +190,9 @@ def parameters(cases):
 def held_out(cases):
     """Held-out error with the named causes over the true noise, which the best model would leave.
 
-    Only where the finder judges the channel that carries the noise. The noise is that of the whole
-    record: over the held-out part it scatters, by some per cent where it is coloured.
+    Only where the finder judges the channel that carries the noise. The noise is that of the very
+    samples that the finder says it held out: over a part of a record it scatters, by some per cent
+    where it is coloured.
     """
     known = [c for c in cases if c["known"] and c.get("held_out_over_noise") is not None]
 

@@ -332,6 +332,15 @@ class Quality(unittest.TestCase):
         self.assertEqual((held["all"]["within"]["count"], held["all"]["within"]["of"]), (1, 1))
         self.assertEqual(held["not_comparable"], 1)
 
+    def test_noise_is_that_of_the_samples_held_out(self):
+        time = np.arange(10.0)
+        told = truth(heard=[(time, np.where(time < 5, 1e-9, 2e-9)), (time, np.full(10, 4e-9))])
+        said = diagnosis("sensor_delay")
+        self.assertEqual(observe(told, said)["held_out_over_noise"], 1.02)
+        said["records"] = [{"held_out": [[5.0, 6.0], [8.001, 8.999]]}, {"held_out": []}]
+        self.assertAlmostEqual(observe(told, said)["held_out_over_noise"], 0.51)
+        self.assertAlmostEqual(observe(told, said)["baseline_over_noise"], 1.5)
+
     def test_follow_up_counts_what_stayed_open(self):
         before = judge(truth(), diagnosis(("viscous_damping", "sensor_delay")))
         after = judge(truth(), diagnosis("sensor_delay"))

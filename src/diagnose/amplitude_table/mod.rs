@@ -284,6 +284,8 @@ impl<'a> Search<'a> {
                 .iter()
                 .map(|table| (table.name.clone(), table.dissipation.len(), String::new()))
                 .collect(),
+            // Levels of a table have no time.
+            held_out: vec![Vec::new(); tables.len()],
             candidates: self.candidates.clone(),
             noise: NoiseFinding {
                 rms: 1.0,
