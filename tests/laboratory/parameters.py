@@ -82,6 +82,12 @@ QUANTITIES = [
     ),
     Quantity("preload_loss", "energy", _heat),
     Quantity("rate_dependent_friction", "gain", _read("per_e_fold"), False),
+    Quantity(
+        "static_friction_drop",
+        "excess",
+        lambda t: t["breakaway_over_kinetic"] - 1.0,
+        False,
+    ),
     Quantity("fixture_inertia", "mass", _read("mass_kg")),
     Quantity("sensor_delay", "delay", _read("delay_s")),
     Quantity(
@@ -100,8 +106,7 @@ NOT_COMPARABLE = {
     "normal_load_variation": "exponential against linear, and the finder's weights two loads",
     "running_in": "settles along the slip path, the finder's with dissipated energy",
     "velocity_weakening": "x/(1 + x) against 1 - exp(-x): the limit at high speed is another one",
-    "static_friction_drop": "of each element by itself, the finder's of all since a reversal",
-    "creep": "three Kelvin elements against one",
+    "creep": "three Kelvin elements of any shares against one, or five of equal shares",
     "sensor_saturation": "range of a rounded law against the level at which the reading bends off",
     "sensor_nonlinearity": "sine and cosine against square and cube",
 }
