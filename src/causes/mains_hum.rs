@@ -5,11 +5,11 @@ use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::sincos;
 use crate::joint::parameters::Parameter;
 
-/// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`; of
-/// several records the clocks are set so that one phase serves all.
+/// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`, with some of its
+/// third harmonic; of several records the clocks are set so that one phase serves all.
 pub struct MainsHum;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 5] = [
     Parameter {
         name: "sine",
         symbol: "a",
@@ -40,6 +40,26 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "frequency of the mains; shows at its alias where the record is sampled too slowly",
     },
+    Parameter {
+        name: "third_sine",
+        symbol: "p",
+        unit: "1",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "third harmonic over the amplitude, the part that is zero at time zero of the first record",
+    },
+    Parameter {
+        name: "third_cosine",
+        symbol: "q",
+        unit: "1",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "third harmonic over the amplitude, the part that is largest at time zero of the first record",
+    },
 ];
 
 impl Effect for MainsHum {
@@ -53,9 +73,17 @@ impl Effect for MainsHum {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let third = values[3] != 0.0 || values[4] != 0.0;
+        let amplitude = (values[0] * values[0] + values[1] * values[1]).sqrt();
         let hum = |t: &f64| {
-            let (sine, cosine) = sincos(std::f64::consts::TAU * values[2] * t);
-            values[0] * sine + values[1] * cosine
+            let angle = std::f64::consts::TAU * values[2] * t;
+            let (sine, cosine) = sincos(angle);
+            let first = values[0] * sine + values[1] * cosine;
+            if !third {
+                return first;
+            }
+            let (sine, cosine) = sincos(3.0 * angle);
+            first + amplitude * (values[3] * sine + values[4] * cosine)
         };
         truth.time.iter().map(hum).collect()
     }
@@ -68,8 +96,8 @@ impl Cause for MainsHum {
             sign: "A sine of 50 or 60 Hz, or of its alias, under everything: in holds too, whatever the load; loops ripple and their ripples do not repeat from cycle to cycle.",
             mistaken_for: &["displacement_drift", "offset_step"],
             separated_by: "Its spectrum is one line that stays where it is when the drive changes; an alias near the cycle's own rate looks like drift until the record is sampled faster.",
-            formula: "U_measured = U + a sin(2 pi f t) + b cos(2 pi f t)",
-            source: "Interference of the mains, nominally 50 or 60 Hz.",
+            formula: "U_measured = U + a sin(w t) + b cos(w t) + sqrt(a^2 + b^2) (p sin(3 w t) + q cos(3 w t)), w = 2 pi f",
+            source: "Interference of the mains, nominally 50 or 60 Hz; transformers and rectifiers add odd harmonics, the third above all.",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
@@ -86,10 +114,13 @@ impl Cause for MainsHum {
             .flat_map(|frequency| {
                 [15.0_f64, 75.0, 135.0].map(|degrees| {
                     let (sine, cosine) = sincos(degrees.to_radians());
-                    vec![amplitude * sine, amplitude * cosine, *frequency]
+                    vec![amplitude * sine, amplitude * cosine, *frequency, 0.0, 0.0]
                 })
             })
             .collect()
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        vec![values[0], values[1], values[2], 0.05, 0.05]
     }
 }
 
@@ -105,14 +136,19 @@ mod tests {
             force: vec![],
             displacement: vec![0.0; 41],
         };
-        let added = MainsHum.channel(&[2.0, 0.5, 50.0], &truth);
+        let added = MainsHum.channel(&[2.0, 0.5, 50.0, 0.0, 0.0], &truth);
         // Time zero, a quarter and a half period of 20 ms later.
         for (sample, expected) in [(20, 0.5), (25, 2.0), (30, -0.5)] {
             assert!((added[sample] - expected).abs() < 1e-9);
         }
+        // The third harmonic has gone three quarters of its own period where the first has one.
+        let both = MainsHum.channel(&[2.0, 0.0, 50.0, 0.1, 0.2], &truth);
+        for (sample, expected) in [(20, 0.4), (25, 1.8), (30, -0.4)] {
+            assert!((both[sample] - expected).abs() < 1e-9);
+        }
         assert!(
             MainsHum
-                .channel(&[2.0, 0.5, 50.0], &Trajectory::default())
+                .channel(&[2.0, 0.5, 50.0, 0.0, 0.0], &Trajectory::default())
                 .is_empty()
         );
     }

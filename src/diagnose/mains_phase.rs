@@ -1,7 +1,8 @@
 //! One phase of the mains for all records: each test starts at a moment of its own.
 
-use crate::causes::find;
-use crate::identify::{Fit, Problem};
+use crate::causes::{Cause, find};
+use crate::identify::{Fit, Problem, refit};
+use crate::joint::effect::{Acting, Trajectory};
 
 /// Frequencies tried about a nominal one, per cycle of the longest record.
 const PER_CYCLE: f64 = 4.0;
@@ -22,7 +23,8 @@ pub fn align(problem: &mut Problem, first: &Fit) {
         return;
     };
     let frequency = &hum.parameters()[2];
-    let residuals = residuals(problem, first);
+    let left_by_first = left(problem, first);
+    let residuals = in_scatters(&left_by_first);
     let longest = problem
         .records
         .iter()
@@ -44,30 +46,86 @@ pub fn align(problem: &mut Problem, first: &Fit) {
         .filter(|f| (frequency.lower..frequency.upper).contains(f))
         .map(|f| (strength(f), f))
         .max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((_, frequency)) = best else {
+    let Some((fall, frequency)) = best else {
         return;
     };
-    let phases: Vec<f64> = lines(frequency).iter().map(|l| l.1).collect();
-    for (record, phase) in problem.records.iter_mut().zip(&phases).skip(1) {
-        let turns = ((phase - phases[0]) / std::f64::consts::TAU).rem_euclid(1.0);
+    let found = lines(frequency);
+    set_clocks(problem, &found, frequency);
+    let samples: usize = residuals.iter().map(Vec::len).sum();
+    if fall > STRONG * samples as f64 {
+        let (sine, cosine) = found[0].1.sin_cos();
+        let share = 2.0 * found[0].0 / residuals[0].len().max(1) as f64;
+        let amplitude = share.sqrt() * super::prepare::rms(&left_by_first[0]);
+        let values = vec![amplitude * cosine, amplitude * sine, frequency, 0.0, 0.0];
+        anew(problem, first, hum, values);
+    }
+}
+
+/// Share of what the baseline leaves that a hum takes from which its phases are looked at again.
+const STRONG: f64 = 0.1;
+
+/// Times they are.
+const AGAIN: usize = 3;
+
+/// Sets the clocks anew by phases beside a joint that was fitted with the hum: a baseline without it
+/// takes up some of a short record's, and leaves some of the drive.
+fn anew(problem: &mut Problem, first: &Fit, hum: &'static dyn Cause, values: Vec<f64>) {
+    let mut effects = vec![Acting {
+        effect: hum.effect(),
+        values,
+    }];
+    let mut fit = first.clone();
+    for _ in 0..AGAIN {
+        fit = refit(problem, &fit, effects);
+        effects = fit.effects.clone();
+        let values = &effects[0].values;
+        let lines: Vec<(f64, f64)> = problem
+            .records
+            .iter()
+            .zip(left(problem, &fit))
+            .map(|(record, left)| {
+                let clock = Trajectory {
+                    time: record.time.clone(),
+                    ..Trajectory::default()
+                };
+                let added = hum.channel(values, &clock);
+                let both = left.iter().zip(&added);
+                let whole: Vec<f64> = both.map(|(left, added)| left + added).collect();
+                line(&record.time, &whole, values[2])
+            })
+            .collect();
+        set_clocks(problem, &lines, values[2]);
+    }
+}
+
+/// Moves the clocks of all records but the first until the phases of their lines are the first's.
+fn set_clocks(problem: &mut Problem, lines: &[(f64, f64)], frequency: f64) {
+    for (record, line) in problem.records.iter_mut().zip(lines).skip(1) {
+        // The nearer way round: a clock that is right already stays.
+        let away = (line.1 - lines[0].1) / std::f64::consts::TAU;
+        let turns = away - away.round();
         record.time.iter_mut().for_each(|t| *t += turns / frequency);
     }
 }
 
-/// What the baseline leaves of each record, in units of its own scatter.
-fn residuals(problem: &Problem, first: &Fit) -> Vec<Vec<f64>> {
-    let predictions = first.predict(problem);
+/// What a fit leaves of each record.
+fn left(problem: &Problem, fit: &Fit) -> Vec<Vec<f64>> {
+    let predictions = fit.predict(problem);
     let one = |(k, prediction): (usize, &crate::identify::Prediction)| {
         let (_, judged) = problem.channels(k);
-        let left: Vec<f64> = judged
-            .iter()
-            .zip(&prediction.judged)
-            .map(|(y, p)| y - p)
-            .collect();
-        let scatter = super::prepare::rms(&left).max(f64::MIN_POSITIVE);
-        left.iter().map(|r| r / scatter).collect()
+        let both = judged.iter().zip(&prediction.judged);
+        both.map(|(y, p)| y - p).collect()
     };
     predictions.iter().enumerate().map(one).collect()
+}
+
+/// The same in units of its own scatter.
+fn in_scatters(left: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let one = |left: &Vec<f64>| {
+        let scatter = super::prepare::rms(left).max(f64::MIN_POSITIVE);
+        left.iter().map(|r| r / scatter).collect()
+    };
+    left.iter().map(one).collect()
 }
 
 /// Fall of the sum of squares by a sine of the frequency, and its phase at time zero.
