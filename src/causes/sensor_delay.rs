@@ -18,12 +18,33 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "time by which the displacement channel lags the force channel",
 }];
 
+/// Samples by which the place of a time among even ones may be wrong before it is searched for.
+const NEAR: usize = 4;
+
+/// Count of samples that are no later than `time`.
+fn first_after(samples: &[f64], time: f64) -> usize {
+    let (Some(&first), Some(&last)) = (samples.first(), samples.last()) else {
+        return 0;
+    };
+    // Most records are sampled evenly: then the place is known, and no search is needed.
+    let even = (time - first) / (last - first) * (samples.len() - 1) as f64;
+    let low = (even.max(0.0) as usize).saturating_sub(NEAR);
+    let high = (low + 2 * NEAR).min(samples.len());
+    let near = samples.get(low..high).unwrap_or_default();
+    let place = low + near.iter().take_while(|sample| **sample <= time).count();
+    let inside = (place > low || low == 0) && (place < high || high == samples.len());
+    match inside && !near.is_empty() {
+        true => place,
+        false => samples.partition_point(|&sample| sample <= time),
+    }
+}
+
 /// U at `time` by cubic pieces through the samples with slopes of their neighbours; before the
 /// record the joint was at rest, after it the last piece goes straight on.
 pub(super) fn displacement_at(truth: &Trajectory, time: f64) -> f64 {
     let (t, u) = (&truth.time, &truth.displacement);
     let last = t.len() - 1;
-    let after = t.partition_point(|&sample| sample <= time);
+    let after = first_after(t, time);
     if after == 0 {
         return u[0];
     }
@@ -92,6 +113,26 @@ impl Cause for SensorDelay {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_place_of_a_time_is_found_among_even_and_uneven_samples() {
+        let even: Vec<f64> = (0..100).map(|i| 0.3 + 0.01 * f64::from(i)).collect();
+        let uneven: Vec<f64> = even.iter().map(|t| t.powi(5)).collect();
+        for samples in [&even, &uneven, &vec![2.0], &vec![]] {
+            for i in -20..260 {
+                let time = 0.01 * f64::from(i);
+                let expected = samples.partition_point(|&sample| sample <= time);
+                assert_eq!(
+                    first_after(samples, time),
+                    expected,
+                    "{time} of {samples:?}"
+                );
+            }
+            for (i, time) in samples.iter().enumerate() {
+                assert_eq!(first_after(samples, *time), i + 1);
+            }
+        }
+    }
 
     #[test]
     fn a_sine_is_read_late_or_early_by_parts_of_a_sample() {

@@ -128,22 +128,26 @@ fn scored(problem: &Problem, scale: &Scale, timed: bool, current: &Fit) -> Vec<S
         .filter(|c| timed || !c.needs_time())
         .filter(|c| !current.effects.iter().any(|a| a.effect.name() == c.name()))
         .collect();
-    usable
-        .par_iter()
-        .map(|&cause| {
-            let starts: Vec<Acting> = cause
-                .starts(scale)
-                .into_iter()
-                .map(|values| Acting {
-                    effect: cause.effect(),
-                    values,
-                })
-                .collect();
-            let mut found = scores(problem, current, &starts);
-            found.sort_by(|a, b| b.fall.total_cmp(&a.fall));
-            (cause, found)
+    let starts: Vec<Acting> = usable
+        .iter()
+        .flat_map(|&cause| {
+            let shapes = cause.starts(scale).into_iter();
+            shapes.map(|values| Acting {
+                effect: cause.effect(),
+                values,
+            })
         })
-        .collect()
+        .collect();
+    let found = scores(problem, current, &starts);
+    let of = |cause: &'static dyn Cause| {
+        let own = found
+            .iter()
+            .filter(|s| s.acting.effect.name() == cause.name());
+        let mut own: Vec<Score> = own.cloned().collect();
+        own.sort_by(|a, b| b.fall.total_cmp(&a.fall));
+        (cause, own)
+    };
+    usable.into_iter().map(of).collect()
 }
 
 /// Half the information criterion's penalty of a cause's free values, doubled: `k ln n`.

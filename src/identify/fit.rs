@@ -9,7 +9,9 @@ use super::rows::each_row;
 use super::series;
 use super::slopes::{Slope, hold, moved, slopes};
 use super::strides::strided;
+use super::summed::Summed;
 use crate::joint::effect::{Acting, Place};
+use rayon::prelude::*;
 
 /// A fitted model.
 #[derive(Debug, Clone, PartialEq)]
@@ -270,7 +272,7 @@ fn descend(
 }
 
 /// Normal equations of the linearised model: coefficients, offsets, moves of the parameters.
-fn normal(
+pub(super) fn normal(
     problem: &Problem,
     coefficients: &[f64],
     effects: &[Acting],
@@ -278,10 +280,17 @@ fn normal(
     slopes: &[Slope],
 ) -> Normal {
     let size = problem.operators.columns() + problem.records.len() + slopes.len();
+    let parts: Vec<Normal> = (0..problem.records.len())
+        .into_par_iter()
+        .map(|k| {
+            let mut summed = Summed::new(size);
+            let model = (coefficients, effects);
+            each_row(problem, k, model, &at[k], slopes, |row| summed.add(row));
+            summed.finish()
+        })
+        .collect();
     let mut normal = Normal::new(size);
-    each_row(problem, coefficients, effects, at, slopes, |row, target| {
-        normal.add(row, target);
-    });
+    parts.iter().for_each(|part| normal.merge(part));
     normal.mirror();
     normal
 }

@@ -1,6 +1,7 @@
 //! The model linearised at a fit: its normal equations, and how far what a linear combination of the
 //! unknowns owes to the samples scatters.
 
+use super::fit::normal;
 use super::nonnegative::Normal;
 use super::problem::{Prediction, Prepared, Problem};
 use super::rows::each_row;
@@ -49,23 +50,19 @@ impl<'a> Linearised<'a> {
     pub fn new(problem: &'a Problem, coefficients: &'a [f64], effects: &'a [Acting]) -> Self {
         let at = problem.predict(coefficients, effects);
         let slopes = slopes(problem, coefficients, effects, &at);
-        let size = problem.operators.columns() + problem.records.len() + slopes.len();
         let mut step = Linearised {
             problem,
             coefficients,
             effects,
             at,
             slopes,
-            normal: Normal::new(size),
+            normal: Normal::new(0),
             solution: Vec::new(),
             misfit: 0.0,
         };
-        let mut normal = Normal::new(size);
-        step.rows(|_, row, target| normal.add(row, target));
-        normal.mirror();
-        step.solution = normal.solve(&step.bounded());
-        step.misfit = normal.misfit(&step.solution);
-        step.normal = normal;
+        step.normal = normal(problem, coefficients, effects, &step.at, &step.slopes);
+        step.solution = step.normal.solve(&step.bounded());
+        step.misfit = step.normal.misfit(&step.solution);
         step
     }
 
@@ -99,19 +96,16 @@ impl<'a> Linearised<'a> {
 
     /// Every whitened row with its target; the first number counts the weighted samples.
     fn rows(&self, mut each: impl FnMut(usize, &[f64], f64)) {
-        let (coefficients, effects) = (self.coefficients, self.effects);
+        let model = (self.coefficients, self.effects);
         let mut seen = 0;
-        each_row(
-            self.problem,
-            coefficients,
-            effects,
-            &self.at,
-            &self.slopes,
-            |row, target| {
-                each(seen, row, target);
+        for (k, at) in self.at.iter().enumerate() {
+            each_row(self.problem, k, model, at, &self.slopes, |row| {
+                if let Some((target, row)) = row.split_last() {
+                    each(seen, row, *target);
+                }
                 seen += 1;
-            },
-        );
+            });
+        }
     }
 
     /// Variance of each combination over that of [`Influence::variance`], at least 1.

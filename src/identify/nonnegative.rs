@@ -56,6 +56,17 @@ impl Normal {
         self.rows += other.rows;
     }
 
+    /// The equations of the first `size` unknowns alone, both triangles as they are.
+    pub fn leading(&self, size: usize) -> Normal {
+        let lines = self.gram.chunks_exact(self.size.max(1)).take(size);
+        Normal {
+            size,
+            gram: lines.flat_map(|line| &line[..size]).copied().collect(),
+            right: self.right[..size].to_vec(),
+            ..*self
+        }
+    }
+
     /// Fills the lower triangle.
     pub fn mirror(&mut self) {
         for i in 0..self.size {

@@ -6,6 +6,7 @@ use super::walk::walk;
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
 use crate::record::peaks::{Between, between};
+use rayon::prelude::*;
 
 /// One record as the fit sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -180,6 +181,7 @@ impl Problem {
     /// Predictions of every record.
     pub fn predict(&self, coefficients: &[f64], effects: &[Acting]) -> Vec<Prediction> {
         (0..self.records.len())
+            .into_par_iter()
             .map(|k| self.marched(k, (coefficients, effects, Cells::Weighted), |_, _, _| {}))
             .collect()
     }

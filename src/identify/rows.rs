@@ -31,42 +31,40 @@ impl Rows {
     }
 }
 
-/// Every whitened row of the linearised model with its target: coefficients, an offset per record,
-/// moves of the effects' values.
+/// Every whitened row of the model of record `k`, linearised, its target last: coefficients, an offset
+/// per record, moves of the effects' values.
 pub(super) fn each_row(
     problem: &Problem,
-    coefficients: &[f64],
-    effects: &[Acting],
-    at: &[Prediction],
+    k: usize,
+    (coefficients, effects): (&[f64], &[Acting]),
+    at: &Prediction,
     slopes: &[Slope],
-    mut each: impl FnMut(&[f64], f64),
+    mut each: impl FnMut(&[f64]),
 ) {
     let columns = problem.operators.columns();
     let first = columns + problem.records.len();
     let size = first + slopes.len();
-    for (k, record) in problem.records.iter().enumerate() {
-        let (_, measured) = problem.channels(k);
-        let mut weighing = Weighing::new(record, size + 1);
-        let mut row = vec![0.0; size + 1];
-        let mut rows = Rows::default();
-        problem.pass(k, coefficients, effects, |i, march, step| {
-            rows.next(march, step, &mut row[..columns]);
-            let Some(i) = i else { return };
-            row[columns + k] = 1.0;
-            for (value, slope) in row[first..size].iter_mut().zip(slopes) {
-                *value = slope.values[k][i];
-            }
-            let linear: f64 = row[..columns]
-                .iter()
-                .zip(coefficients)
-                .map(|(x, c)| x * c)
-                .sum();
-            row[size] = measured[i] - at[k].judged[i] + linear;
-            if let Some(white) = weighing.weigh(i, &row) {
-                each(&white[..size], white[size]);
-            }
-        });
-    }
+    let (_, measured) = problem.channels(k);
+    let mut weighing = Weighing::new(&problem.records[k], size + 1);
+    let mut row = vec![0.0; size + 1];
+    let mut rows = Rows::default();
+    problem.pass(k, coefficients, effects, |i, march, step| {
+        rows.next(march, step, &mut row[..columns]);
+        let Some(i) = i else { return };
+        row[columns + k] = 1.0;
+        for (value, slope) in row[first..size].iter_mut().zip(slopes) {
+            *value = slope.values[k][i];
+        }
+        let linear: f64 = row[..columns]
+            .iter()
+            .zip(coefficients)
+            .map(|(x, c)| x * c)
+            .sum();
+        row[size] = measured[i] - at.judged[i] + linear;
+        if let Some(white) = weighing.weigh(i, &row) {
+            each(white);
+        }
+    });
 }
 
 #[cfg(test)]

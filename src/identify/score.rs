@@ -5,7 +5,9 @@ use super::fit::Fit;
 use super::nonnegative::Normal;
 use super::problem::{Problem, Weighing};
 use super::rows::Rows;
+use super::summed::Summed;
 use crate::joint::effect::Acting;
+use rayon::prelude::*;
 
 /// The score of one starting shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,14 +19,14 @@ pub struct Score {
     pub fall: f64,
 }
 
-/// Effects whose columns are held in memory at a time.
-const BATCH: usize = 24;
+/// Effects whose columns are held in memory at a time, and share one pass of the dictionary.
+const BATCH: usize = 12;
 
 /// Scores every starting shape against the current model.
 pub fn scores(problem: &Problem, current: &Fit, starts: &[Acting]) -> Vec<Score> {
-    starts
-        .chunks(BATCH)
-        .flat_map(|batch| score_batch(problem, current, batch))
+    let batches = starts.par_chunks(BATCH);
+    batches
+        .flat_map_iter(|batch| score_batch(problem, current, batch))
         .collect()
 }
 
@@ -49,39 +51,42 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
                 .collect()
         })
         .collect();
-    let mut common = Normal::new(size);
-    let mut cross = vec![vec![0.0; size]; batch.len()];
-    let mut own = vec![(0.0, 0.0); batch.len()];
-    for k in 0..records {
-        let record = &problem.records[k];
-        let (_, measured) = problem.channels(k);
-        let mut weighing = Weighing::new(record, size + batch.len() + 1);
-        let mut row = vec![0.0; size + batch.len() + 1];
-        let mut rows = Rows::default();
-        problem.pass(k, &current.coefficients, &acting, |i, march, step| {
-            rows.next(march, step, &mut row[..columns]);
-            let Some(i) = i else { return };
-            row[columns + k] = 1.0;
-            for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
-                *value = slope.values[k][i];
-            }
-            for (value, extra) in row[size..].iter_mut().zip(&extras) {
-                *value = extra[k][i];
-            }
-            row[size + batch.len()] = measured[i] - at[k].judged[i] - current.offsets[k];
-            if let Some(white) = weighing.weigh(i, &row) {
-                let target = white[size + batch.len()];
-                common.add(&white[..size], target);
-                for (b, &value) in white[size..size + batch.len()].iter().enumerate() {
-                    for (sum, other) in cross[b].iter_mut().zip(&white[..size]) {
-                        *sum += value * other;
-                    }
-                    own[b] = (own[b].0 + value * value, own[b].1 + value * target);
+    let all = size + batch.len();
+    let parts: Vec<Normal> = (0..records)
+        .into_par_iter()
+        .map(|k| {
+            let (_, measured) = problem.channels(k);
+            let mut weighing = Weighing::new(&problem.records[k], all + 1);
+            let mut row = vec![0.0; all + 1];
+            let mut rows = Rows::default();
+            let mut summed = Summed::new(all);
+            problem.pass(k, &current.coefficients, &acting, |i, march, step| {
+                rows.next(march, step, &mut row[..columns]);
+                let Some(i) = i else { return };
+                row[columns + k] = 1.0;
+                for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
+                    *value = slope.values[k][i];
                 }
-            }
-        });
-    }
-    common.mirror();
+                for (value, extra) in row[size..].iter_mut().zip(&extras) {
+                    *value = extra[k][i];
+                }
+                row[all] = measured[i] - at[k].judged[i] - current.offsets[k];
+                if let Some(white) = weighing.weigh(i, &row) {
+                    summed.add(white);
+                }
+            });
+            summed.finish()
+        })
+        .collect();
+    let mut together = Normal::new(all);
+    parts.iter().for_each(|part| together.merge(part));
+    together.mirror();
+    let common = together.leading(size);
+    let tried = |b: usize| {
+        let i = size + b;
+        let line = &together.gram[i * all..(i + 1) * all];
+        (&line[..size], (line[i], together.right[i]))
+    };
     // Unknowns are moves away from the current fit, where the gradient over its positive
     // coefficients vanishes: only those may move freely, the others stay at zero.
     let free: Vec<usize> = (0..size)
@@ -91,7 +96,10 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
     batch
         .iter()
         .enumerate()
-        .map(|(b, acting)| one(acting, &common, &free, &cross[b], own[b]))
+        .map(|(b, acting)| {
+            let (cross, own) = tried(b);
+            one(acting, &common, &free, cross, own)
+        })
         .collect()
 }
 
