@@ -15,6 +15,7 @@ from .marks import Foreign
 from .noise import KINDS
 from .pair import draw_pair
 from .scorecard import Mixed, card
+from .speed import RATES, speed
 
 
 def _span(text):
@@ -77,19 +78,24 @@ def _parser():
     board.add_argument("--only", type=_names, default=None, help=", ".join([*plan.PLANS]))
     report = commands.add_parser("report", help="the card of marks that exist")
     commands.add_parser("effects", help="names of the effects")
-    for one in (blind, power, clean, foreign, pairs, follow, board):
+    fast = commands.add_parser("speed", help="seconds that a diagnosis takes")
+    fast.add_argument("--cases", type=int, default=6)
+    fast.add_argument("--samples", type=int, default=16_000, help="of all records of a joint")
+    fast.add_argument("--records", type=int, default=3, choices=(1, 2, 3))
+    for one in (blind, power, clean, foreign, pairs, follow, board, fast):
         one.add_argument("--iwan", required=True, help="path of the command line")
-        one.add_argument("--jobs", type=int, default=2)
+        if one is not fast:  # whose threads are what is measured
+            one.add_argument("--jobs", type=int, default=2)
     for one in (draw, blind, power, pairs):
         one.add_argument("--noise", choices=KINDS, default=None, help="white or coloured if absent")
-    for one in (draw, blind, power, clean, foreign, pairs, known, follow, board):
+    for one in (draw, blind, power, clean, foreign, pairs, known, follow, board, fast):
         one.add_argument("--seed", type=int, default=None, help="from the clock unless given")
     for one in (power, clean, foreign, pairs, board, report):
         one.add_argument("--commit", default=None, help="of the finder, for the card")
         one.add_argument("--readme", default=None, help="file whose scorecard block is filled")
         one.add_argument("--figures", default=None, help="folder for a copy of the drawings")
     measured = (power, clean, foreign, pairs, board, report)
-    for one in (draw, blind, known, demo, run, dummy, follow, *measured):
+    for one in (draw, blind, known, demo, run, dummy, follow, fast, *measured):
         one.add_argument("-o", "--output", required=True)
     return parser
 
@@ -132,6 +138,10 @@ def main(arguments=None):
 
 
 def _run(asked, seed):
+    if asked.command == "speed":
+        rates = RATES[: asked.records]
+        speed(seed, asked.cases, asked.samples, rates, asked.iwan, asked.output)
+        return 0
     if asked.command == "draw":
         if asked.effect and (asked.effect == "pair" or "+" in asked.effect):
             names = None if asked.effect == "pair" else asked.effect.split("+")

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from . import loads, noise_free, rig
+from . import loads, noise_free, rig, speed
 from .case import Gauge, Sampled, calibrate, draw_case, write_case
 from .effects import CATALOGUE, EFFECTS, FOREIGN, in_turn
 from .follow_up import measure
@@ -313,6 +313,17 @@ class Scoring(unittest.TestCase):
         low, high = share(0, 20)["interval"]
         self.assertEqual(low, 0.0)
         self.assertAlmostEqual(high, 0.161, delta=0.01)
+
+
+class Speed(unittest.TestCase):
+    def test_records_of_the_length_asked_for_go_through_all_levels_at_three_rates(self):
+        effect, records = speed.draw(3, 0, 1800)
+        self.assertIn(effect, EFFECTS)
+        self.assertEqual([len(time) for time, _, _ in records], [600, 600, 600])
+        lengths = [time[-1] for time, _, _ in records]
+        self.assertAlmostEqual(lengths[0] / lengths[2], 10.0)
+        for record in records:
+            self.assertTrue(np.all(np.isfinite(record)))
 
 
 if __name__ == "__main__":
