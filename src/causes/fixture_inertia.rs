@@ -84,6 +84,10 @@ impl Effect for FixtureInertia {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    /// What a mass changes of the force's peaks moves the turning points of every operator.
+    fn jumps_with(&self, _parameter: usize) -> bool {
+        true
+    }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
         acceleration(values[0], truth)
             .iter()

@@ -175,7 +175,7 @@ fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps
     if fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
         return fit;
     }
-    let farther = strided(problem, fit.clone());
+    let farther = strided(problem, fit.clone(), steps.before);
     if farther.misfit >= fit.misfit {
         return fit;
     }

@@ -3,6 +3,10 @@
 
 use super::fit::{Fit, projected};
 use super::problem::Problem;
+use super::series;
+
+/// Factors tried at once: a first size comes from a slope, and slopes between jumps tell little.
+const LEAPS: [f64; 3] = [3.0, 9.0, 27.0];
 
 /// Share of the value that a stride goes.
 const STRIDE: f64 = 0.2;
@@ -10,36 +14,32 @@ const STRIDE: f64 = 0.2;
 /// Most strides one way.
 const MOST: usize = 8;
 
-/// The fit with such values a few strides on, the dictionary's coefficients suited to each; the same
-/// fit where no stride lowers the misfit.
-pub(super) fn strided(problem: &Problem, mut fit: Fit) -> Fit {
-    for e in 0..fit.effects.len() {
+/// The fit with such values of its newest effect a few strides on, or first a leap where the newest effect takes less than
+/// half of what noise does not explain of the misfit `before` it; the dictionary's coefficients suited
+/// to each. The same fit where none lowers the misfit.
+pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
+    let half = 0.5 * (before + problem.rows() as f64);
+    // The others have been there before.
+    let newest = fit.effects.iter().rposition(|acting| !series::is(acting));
+    if let Some(e) = newest {
         let law = fit.effects[e].effect;
-        for (p, parameter) in law.parameters().iter().enumerate() {
-            if !law.jumps_with(p) {
-                continue;
+        for p in (0..law.parameters().len()).filter(|&p| law.jumps_with(p)) {
+            if fit.misfit > half {
+                let leaps = LEAPS.map(|factor| moved(problem, &fit, (e, p), factor));
+                let lower = |least: Fit, next: Fit| match next.misfit < least.misfit {
+                    true => next,
+                    false => least,
+                };
+                fit = leaps.into_iter().fold(fit, lower);
             }
             for factor in [1.0 + STRIDE, 1.0 / (1.0 + STRIDE)] {
                 let began = fit.misfit;
                 for _ in 0..MOST {
-                    let value = fit.effects[e].values[p] * factor;
-                    let next = value.clamp(parameter.lower, parameter.upper);
-                    let mut effects = fit.effects.clone();
-                    effects[e].values[p] = next;
-                    let at = problem.predict(&fit.coefficients, &effects);
-                    let coefficients = projected(problem, &fit.coefficients, &effects, &at);
-                    let (misfit, offsets) =
-                        problem.misfit(&problem.predict(&coefficients, &effects));
-                    if misfit >= fit.misfit {
+                    let next = moved(problem, &fit, (e, p), factor);
+                    if next.misfit >= fit.misfit {
                         break;
                     }
-                    fit = Fit {
-                        coefficients,
-                        offsets,
-                        effects,
-                        series: fit.series,
-                        misfit,
-                    };
+                    fit = next;
                 }
                 if fit.misfit < began {
                     break;
@@ -48,4 +48,22 @@ pub(super) fn strided(problem: &Problem, mut fit: Fit) -> Fit {
         }
     }
     fit
+}
+
+/// The fit with one value times a factor, inside its bounds.
+fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> Fit {
+    let mut effects = fit.effects.clone();
+    let parameter = &effects[e].effect.parameters()[p];
+    let value = &mut effects[e].values[p];
+    *value = (*value * factor).clamp(parameter.lower, parameter.upper);
+    let at = problem.predict(&fit.coefficients, &effects);
+    let coefficients = projected(problem, &fit.coefficients, &effects, &at);
+    let (misfit, offsets) = problem.misfit(&problem.predict(&coefficients, &effects));
+    Fit {
+        coefficients,
+        offsets,
+        effects,
+        series: fit.series,
+        misfit,
+    }
 }

@@ -72,7 +72,8 @@ const EXTENDED: &str =
     "<p>With the causes below, the network is a finite set of sliders and each step \
 solves one rising equation for force and displacement. Turning values of the input must fall on \
 communication points, or be told by the input's derivatives; a cause that acts on rates takes the \
-mean rate over the step.</p>
+mean rate over the step, and a slip limit that changes is that of the last communication point: the \
+answer then depends on the communication step, to first order.</p>
 ";
 
 const EXACT: &str = "<p>The response is exact: Masing's rule with return-point memory on G, or on \

@@ -30,8 +30,8 @@ pub fn section(page: &mut String, version: FmiVersion, drive: Drive, provenance:
         page,
         "<p>Step: any length. What counts is that the turning values of the input fall on \
          communication points: a sine seen 20 times per cycle dissipates 1.3 % too little, seen \
-         100 times 0.05 %. <code>iwan check JOINT.fmu RECORD</code> says it for a record and the \
-         FMI 2.0 archive.</p>"
+         100 times 0.05 %. <code>iwan check JOINT.fmu RECORD</code> says it for a record, and what \
+         causes add that follow what the joint does.</p>"
     );
     let _ = writeln!(
         page,
