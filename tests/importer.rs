@@ -212,6 +212,70 @@ fn a_record_is_compared_and_its_step_is_judged() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// Between turning values that all fall on samples nothing is lost without causes; a slip limit that
+/// follows the load loses some at every step, and is held against vanishing steps.
+#[test]
+fn a_step_is_judged_by_what_causes_lose_at_it_too() {
+    let causes = r#"[{"name": "normal_load_variation",
+        "parameters": {"sensitivity": 5e-4, "displacement_weight": 0.0}}]"#;
+    // A triangle of two seconds: its turning values are samples, and parabolas through them add none.
+    let input = |time: f64| {
+        let way = (time + 0.5).rem_euclid(2.0);
+        1200.0 * if way < 1.0 { way - 0.5 } else { 1.5 - way }
+    };
+    let mut csv = String::from("time [s],force [N],displacement [m]\n");
+    for row in 0..=20 {
+        let time = f64::from(row) / 4.0;
+        csv += &format!("{time},{},{}\n", input(time), input(time) / 1.1e7);
+    }
+    let lost = |name: &str, causes: &str| -> f64 {
+        let folder = exported(name, causes, "force");
+        std::fs::write(folder.join("record.csv"), &csv).expect("a record");
+        let said = fine(
+            &folder,
+            &[
+                "check",
+                "joint.fmu",
+                "record.csv",
+                "--step",
+                "0.25",
+                "--json",
+            ],
+        );
+        let said: Value = serde_json::from_str(&said).expect("JSON");
+        said["steps"]["effects"]
+            .as_array()
+            .expect("steps")
+            .iter()
+            .find(|e| e["origin"] == "the samples themselves")
+            .and_then(|e| e["lost"].as_f64())
+            .expect("a share")
+    };
+    assert!(lost("no cause at its step", "[]").abs() < 1e-9);
+
+    let dissipated = |parts: u32| -> f64 {
+        let saved = iwan::saved::read(&joint(causes), "joint.json").expect("a joint");
+        let drive = iwan::joint::Drive::Force;
+        let mut simulation = iwan::joint::Simulation::new(&saved.joint, drive).expect("a joint");
+        let mut dissipated = 0.0;
+        for row in 1..=20 * parts {
+            let time = f64::from(row) / f64::from(4 * parts);
+            dissipated = simulation
+                .step(time, input(time))
+                .expect("a step")
+                .dissipation;
+        }
+        dissipated
+    };
+    let expected = 1.0 - dissipated(1) / dissipated(1000);
+    assert!(expected.abs() > 0.01, "{expected} would not show");
+    let said = lost("a cause at its step", causes);
+    assert!(
+        (said - expected).abs() < 0.1 * expected.abs(),
+        "{said}, {expected}"
+    );
+}
+
 /// The archive with one text replaced in one entry, or without the entries that begin so.
 fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), dropped: &str) {
     let file = std::fs::File::open(folder.join("joint.fmu")).expect("the archive");
