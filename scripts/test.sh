@@ -43,6 +43,7 @@ step "blind tests"                    "$PYTHON" tests/blind/run.py --iwan "$IWAN
 step "demo"                           scripts/demo.sh "$demo_result"
 step "what the demo leaves"           "$PYTHON" tests/demo/check.py "$demo_result"
 step "FMU in fmpy"                    "$PYTHON" tests/fmu/run_fmpy.py
+step "the demo's FMU in fmpy"        "$PYTHON" tests/fmu/run_fmpy.py "$demo_result/joint.fmu"
 step "coupled resonator"              "$PYTHON" -m unittest -q resonator_decay
 step "FMU in other importers"         scripts/importers.sh --quick
 step "FMU on other platforms"         scripts/build-platforms.sh --check

@@ -2,9 +2,9 @@
 
     python tests/fmu/run_fmpy.py [--iwan target/release/iwan] [JOINT.fmu …]
 
-Without archives four are exported first, each for FMI 2.0 and FMI 3.0: driven in force and in
-displacement, with and without causes; the archive that the environment variable IWAN_FMU names is
-run too. Exit status 0 where all passed; the last line says `N passed, N failed`.
+Without archives six are exported first, each for FMI 2.0 and FMI 3.0: driven in force and in
+displacement, without causes, with two, and with all; the archive that the environment variable
+IWAN_FMU names is run too. Exit status 0 where all passed; the last line says `N passed, N failed`.
 """
 
 import argparse
@@ -48,12 +48,29 @@ CAUSES = [
     },
     {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
 ]
+OTHERS = {
+    "quadratic_damping": {"coefficient": 1e4},
+    "clearance": {"gap": 2e-6, "seating_force": 20.0},
+    "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0},
+    "cubic_stiffness": {"cubic_compliance": 1e-15},
+    "joint_opening": {"compliance": 2e-9, "opening_force": 50.0},
+    "asymmetric_friction": {"asymmetry": 0.1},
+    "normal_load_variation": {"sensitivity": 1e-4, "displacement_weight": 0.0},
+    "preload_loss": {"loss": 0.1, "energy": 1.0, "tail": 0.3},
+    "running_in": {"deficit": 0.1, "energy": 0.1, "tail": 0.0},
+    "rate_dependent_friction": {"gain": 0.01, "reference_rate": 1e-5},
+    "velocity_weakening": {"drop": 0.05, "stribeck_rate": 1e-3},
+    "static_friction_drop": {"excess": 0.1, "breakaway_distance": 0.0},
+    "creep": {"compliance": 2e-9, "time_constant": 0.05, "spread": 0.5},
+}
+EVERY = CAUSES + [{"name": name, "parameters": values} for name, values in OTHERS.items()]
 
 
 def export(iwan: Path, folder: Path) -> list[Path]:
-    """Archives of one bolt, in both drives, with and without causes."""
+    """Archives of one bolt, in both drives: without causes, with two, and with all there are."""
     archives = []
-    for name, causes in (("bolt", []), ("bolt-with-causes", CAUSES)):
+    joints = (("bolt", []), ("bolt-with-causes", CAUSES), ("bolt-with-every-cause", EVERY))
+    for name, causes in joints:
         joint = folder / f"{name}.json"
         joint.write_text(json.dumps({**BOLT, "causes": causes}))
         for drive in ("force", "displacement"):
