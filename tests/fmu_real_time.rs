@@ -56,15 +56,28 @@ fn bolt(causes: &str) -> &'static str {
     Box::leak(json.into_boxed_str())
 }
 
+/// Every cause of a joint.
 const CAUSES: &str = r#"
     {"name": "clearance", "parameters": {"gap": 2e-6, "seating_force": 20.0}},
-    {"name": "creep", "parameters": {"compliance": 1e-9, "time_constant": 0.05}},
+    {"name": "creep", "parameters": {"compliance": 1e-9, "time_constant": 0.05,
+                                    "spread": 0.5}},
     {"name": "slack_growth", "parameters": {"growth": 1e-9, "threshold": 300.0,
                                             "seating_force": 10.0}},
     {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5,
                                        "gap_negative": 2e-5,
                                        "rounding": 0, "stiffness_ratio": 1}},
     {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
+    {"name": "quadratic_damping", "parameters": {"coefficient": 1e3}},
+    {"name": "cubic_stiffness", "parameters": {"cubic_compliance": 1e-16}},
+    {"name": "joint_opening", "parameters": {"compliance": 2e-10, "opening_force": 50.0}},
+    {"name": "asymmetric_friction", "parameters": {"asymmetry": 0.05}},
+    {"name": "normal_load_variation", "parameters": {"sensitivity": 1e-5,
+                                                     "displacement_weight": 0.0}},
+    {"name": "preload_loss", "parameters": {"loss": 0.05, "energy": 10.0, "tail": 0.3}},
+    {"name": "running_in", "parameters": {"deficit": 0.05, "energy": 0.1, "tail": 0.0}},
+    {"name": "velocity_weakening", "parameters": {"drop": 0.02, "stribeck_rate": 1e-3}},
+    {"name": "static_friction_drop", "parameters": {"excess": 0.05,
+                                                    "breakaway_distance": 0.0}},
     {"name": "rate_dependent_friction", "parameters": {"gain": 0.02,
                                                        "reference_rate": 1e-4}}"#;
 
