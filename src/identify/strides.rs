@@ -14,17 +14,16 @@ const STRIDE: f64 = 0.2;
 /// Most strides one way.
 const MOST: usize = 8;
 
-/// The fit with such values of its newest effect a few strides on, or first a leap where the newest effect takes less than
+/// The fit with such values a few strides on, the newest effect's first a leap where it takes less than
 /// half of what noise does not explain of the misfit `before` it; the dictionary's coefficients suited
 /// to each. The same fit where none lowers the misfit.
 pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
     let half = 0.5 * (before + problem.rows() as f64);
-    // The others have been there before.
     let newest = fit.effects.iter().rposition(|acting| !series::is(acting));
-    if let Some(e) = newest {
+    for e in 0..fit.effects.len() {
         let law = fit.effects[e].effect;
         for p in (0..law.parameters().len()).filter(|&p| law.jumps_with(p)) {
-            if fit.misfit > half {
+            if Some(e) == newest && fit.misfit > half {
                 let leaps = LEAPS.map(|factor| moved(problem, &fit, (e, p), factor));
                 let lower = |least: Fit, next: Fit| match next.misfit < least.misfit {
                     true => next,
