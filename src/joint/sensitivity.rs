@@ -12,7 +12,7 @@
 /// driven by U    dF/dU = 1/(1/G' + 1/K_1) dE/dU = F_sl dF/dU/G'   dW/dU = F − dE/dU
 /// ```
 /// (E dissipated, W stored). With effects the same follows from the equation of the step, rates
-/// and creep of that step included. Checked against differences in tests/physics/sensitivity.rs.
+/// and creep of that step included. Checked against differences in tests/tangent.rs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
     /// Of the force; 1 where it is the input.
