@@ -31,6 +31,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
         let unknowns = pointers::slice("vUnknown_ref", unknowns, unknown_count)?;
         instance.check_knowns(pointers::slice("vKnown_ref", knowns, known_count)?)?;
         let seeds = pointers::slice("dvKnown", known_differentials, known_count)?;
+        Instance::check_seeds("dvKnown", seeds)?;
         let places = Destination::new("dvUnknown", unknown_differentials, unknown_count)?;
         // There is one input: named twice, its differentials add up.
         let seed: f64 = seeds.iter().sum();

@@ -133,6 +133,18 @@ impl Instance {
             .try_for_each(|&known| self.input_variable(known).map(|_| ()))
     }
 
+    /// Refuses seeds of which one is no finite number: they would make every answer none.
+    pub fn check_seeds(argument: &'static str, seeds: &[f64]) -> Result<(), Refusal> {
+        let place = seeds.iter().position(|seed| !seed.is_finite());
+        place.map_or(Ok(()), |place| {
+            Err(Refusal::Seed {
+                argument,
+                place,
+                came: seeds[place],
+            })
+        })
+    }
+
     /// First time derivatives of answers at the end of the last step [SI per s], handed to `take`
     /// in order; none is handed over where any is refused.
     pub fn output_derivatives(

@@ -99,6 +99,13 @@ pub enum Refusal {
     /// A derivative of something else than the input.
     #[error("expected the reference of the input, came {came}")]
     NotInput { came: u32 },
+    /// A seed that is no number.
+    #[error("{argument}[{place}]: expected a finite number, came {came}")]
+    Seed {
+        argument: &'static str,
+        place: usize,
+        came: f64,
+    },
     /// A derivative that is not used.
     #[error("expected an order from 1 to {largest}, came {came}")]
     Order { largest: usize, came: i32 },

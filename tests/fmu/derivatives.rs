@@ -242,3 +242,33 @@ fn output_derivatives_follow_the_input_polynomial() {
     let mean = unit.get(&[DISSIPATION_RATE])[0];
     assert!((power[1] - 2.0 * (power[0] - mean) / 0.2).abs() <= 1e-12 * power[1].abs());
 }
+
+#[test]
+fn a_seed_that_is_no_finite_number_is_refused() {
+    let resources = Resources::new(BOLT);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    unit.drive(FORCE, 300.0, 0.0, 0.1);
+    for (seed, came) in [
+        (f64::NAN, "NaN"),
+        (f64::INFINITY, "inf"),
+        (f64::NEG_INFINITY, "-inf"),
+    ] {
+        let (knowns, seeds, mut slope) = ([FORCE; 2], [1.0, seed], 7.0);
+        let status = unsafe {
+            let (knowns, seeds) = (knowns.as_ptr(), seeds.as_ptr());
+            fmi2GetDirectionalDerivative(
+                unit.handle,
+                &DISPLACEMENT,
+                1,
+                knowns,
+                2,
+                seeds,
+                &mut slope,
+            )
+        };
+        let told = unit.error(status);
+        let expected = format!("dvKnown[1]: expected a finite number, came {came}");
+        assert!(told.contains(&expected), "{told}");
+        assert_eq!(slope, 7.0, "written only on success");
+    }
+}

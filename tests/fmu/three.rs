@@ -404,3 +404,21 @@ fn wrong_counts_references_and_pointers_are_refused() {
         );
     }
 }
+
+#[test]
+fn a_seed_that_is_no_finite_number_is_refused() {
+    let resources = Resources::new(BOLT);
+    let three = Three::stepping(&resources, Drive::Force);
+    for seed in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for product in [fmi3GetDirectionalDerivative, fmi3GetAdjointDerivative] {
+            let mut value = 7.0;
+            let told = three.error(unsafe {
+                let (unknown, known) = (&DISPLACEMENT, &FORCE);
+                product(three.handle, unknown, 1, known, 1, &seed, 1, &mut value, 1)
+            });
+            let expected = format!("seed[0]: expected a finite number, came {seed}");
+            assert!(told.contains(&expected), "{told}");
+            assert_eq!(value, 7.0, "written only on success");
+        }
+    }
+}

@@ -147,6 +147,7 @@ impl Product {
             let unknowns = pointers::slice("unknowns", unknowns.0, unknowns.1)?;
             instance.check_knowns(pointers::slice("knowns", knowns.0, knowns.1)?)?;
             let seed = pointers::slice("seed", seed.0, seed.1)?;
+            Instance::check_seeds("seed", seed)?;
             let places = Destination::new("sensitivity", answers.0, answers.1)?;
             match self {
                 Product::Directional => {
