@@ -4,7 +4,7 @@ use super::calls::Mode;
 use super::instance::{Instance, Motion};
 use super::refusal::Refusal;
 use super::values::Found;
-use crate::joint::{Output, Sensitivity};
+use crate::joint::{Output, Sensitivity, time_passing};
 use crate::variables::{Signal, Variable};
 
 /// Time derivatives of what the last step answered, at its end [SI per s].
@@ -41,7 +41,7 @@ impl Rates {
     /// difference of the input's rate at the end from its mean.
     pub fn of(leg: &Leg, slopes: &Sensitivity, effects: bool) -> Rates {
         let [from, to] = leg.ends;
-        let duration = to.time - from.time;
+        let duration = time_passing(from.time, to.time);
         if duration <= 0.0 {
             return Rates::default(); // a jump takes no time
         }

@@ -3,10 +3,16 @@
 use super::derivatives::{Leg, Rates};
 use super::instance::Instance;
 use super::refusal::Refusal;
+use crate::joint::{Output, time_passing};
 
 /// A communication point may differ from the instance's own time by this, relative to the time
 /// (absolute below one second): importers that sum their steps were seen to be off by 1e-9.
 const TIME_TOLERANCE: f64 = 1e-8;
+
+/// Where derivatives are given, the input as set may differ from the joint's present one by this,
+/// relative to the largest part of the polynomial: hosts that work out its end themselves get other
+/// digits. Beyond it the input jumps, and its turning value there counts.
+const INPUT_ROUNDING: f64 = 1e-12;
 
 /// Time derivatives of the input at the communication point, orders 1 to 3 [SI per sⁿ]. The input
 /// of the next step is the Taylor polynomial that they make; afterwards they are forgotten.
@@ -27,6 +33,15 @@ impl InputDerivatives {
     fn rate_after(self, late: f64) -> f64 {
         let [first, second, third] = self.0;
         first + late * (second + late / 2.0 * third)
+    }
+
+    /// True where the polynomial does not begin at the joint's present input. Without derivatives
+    /// the input as set is that at the end of the step, and none jumps.
+    fn jumps(self, present: f64, set: f64, step: f64) -> bool {
+        let [first, second, third] = self.0.map(f64::abs);
+        let size = InputDerivatives([first, second, third]).input_after(set.abs(), step);
+        self != InputDerivatives::NONE
+            && (set - present).abs() > INPUT_ROUNDING * size.max(present.abs())
     }
 
     /// Times \[s\] within a step at which the input turns, in order, then infinity. The joint
@@ -54,8 +69,8 @@ impl InputDerivatives {
 
 impl Instance {
     /// Moves the joint over a step of `size` \[s\] from `point` \[s\]. The input, as set before, is
-    /// the input at the *end* of the step, unless derivatives were set. On a refusal everything is
-    /// as before.
+    /// the input at the *end* of the step, unless derivatives were set: then it is the input at the
+    /// beginning, reached by a jump where it is not there. On a refusal everything is as before.
     pub fn step(&mut self, point: f64, size: f64) -> Result<(), Refusal> {
         let end = self.check_step(point, size)?;
         let motion = &mut self.motion;
@@ -63,28 +78,36 @@ impl Instance {
             return Ok(());
         };
         let (given, set) = (motion.derivatives, motion.input);
-        let turns = given.turns_within(size);
-        let legs = 1 + turns.iter().filter(|turn| turn.is_finite()).count();
-        // Where the step begins, then the end of each leg; at most two turns, so three legs.
-        let mut way = [
-            (motion.time, simulation.input()),
-            (end, 0.0),
-            (end, 0.0),
-            (end, 0.0),
-        ];
-        for (place, turn) in turns.into_iter().take(legs - 1).enumerate() {
-            let time = (point + turn).clamp(motion.time, end);
-            way[place + 1] = (time, given.input_after(set, turn));
-        }
-        way[legs] = (end, given.input_after(set, size));
         let before = simulation.output();
+        // Where the step begins, then the end of each leg: at most a jump, two turns and the end.
+        let mut way = [(motion.time, simulation.input()); 5];
+        let mut legs = 0;
+        let mut lead = |time: f64, input: f64| {
+            legs += 1;
+            way[legs] = (time, input);
+        };
+        if given.jumps(simulation.input(), set, size) {
+            lead(motion.time, set);
+        }
+        let turns = given.turns_within(size);
+        for turn in turns.into_iter().filter(|turn| turn.is_finite()) {
+            let time = (point + turn).clamp(motion.time, end);
+            lead(time, given.input_after(set, turn));
+        }
+        lead(end, given.input_after(set, size));
         let ends = simulation.follow(&way[1..=legs])?;
-        let elapsed = end - motion.time;
-        let moved = elapsed > 0.0 || ends[1] != before;
-        if legs == 1 {
+        let elapsed = time_passing(motion.time, end);
+        let still = Output {
+            time: ends[1].time,
+            ..before
+        };
+        let moved = elapsed > 0.0 || ends[1] != still;
+        if legs > 1 {
+            // What is lost in no time has no power.
+            let lost = ends[1].dissipation - before.dissipation;
+            motion.dissipation_rate = if elapsed > 0.0 { lost / elapsed } else { 0.0 };
+        } else if moved {
             motion.dissipation_rate = ends[1].dissipation_rate;
-        } else {
-            motion.dissipation_rate = (ends[1].dissipation - before.dissipation) / elapsed;
         }
         if moved {
             let leg = Leg {

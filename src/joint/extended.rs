@@ -9,7 +9,7 @@ mod saved;
 mod slopes;
 
 use super::density::Sliders;
-use super::effect::{Acting, Response, Situation};
+use super::effect::{Acting, Response, Situation, SlipLimit};
 use super::network::Network;
 use super::sensitivity::Sensitivity;
 use super::simulation::{Drive, JointError};
@@ -32,7 +32,8 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// F   = F_j + Σ f(U, (U − U_old)/step)                   beside the joint
 /// ```
 /// Both F(u) and U(u) rise, so either drive is one bracketed Newton search. Slip limits are those
-/// of the last accepted situation. Where no time passes, rates are zero.
+/// of the last accepted situation. Where no time passes, rates and slip limits stay as they were: a
+/// dashpot then neither lets go nor blocks the joint, and the answer to a small jump is a small one.
 ///
 /// Checked in tests/extended: equal to the exact response where nothing acts, work balance,
 /// closed forms of single effects, saved and restored state.
@@ -42,6 +43,8 @@ pub(super) struct Extended {
     flexibility: f64,
     reach: f64,
     network: Network,
+    /// Slip limit of the last step.
+    limit: SlipLimit,
     laws: Laws,
     now: Situation,
     ledger: Ledger,
@@ -102,6 +105,7 @@ impl Extended {
             flexibility: 1.0 / series_stiffness,
             reach: sliders.slip_at.last().copied().unwrap_or(1e-6),
             network: Network::new(sliders).sticking(laws.sticking()),
+            limit: SlipLimit::UNCHANGED,
             ledger: Ledger::new(&laws),
             laws,
             now: Situation::default(),
@@ -119,9 +123,8 @@ impl Extended {
             kept: Vec::new(),
         };
         extended.now.displacement = extended.laws.in_load_path(0.0, 0.0).value;
-        extended
-            .network
-            .begin(extended.laws.slip_limit(&extended.now));
+        extended.limit = extended.laws.slip_limit(&extended.now);
+        extended.network.begin(extended.limit);
         let start = extended.point(0.0, 0.0, true);
         extended.tangent = start.elastic / start.stretch;
         extended.slopes.force = start.stiffness;
@@ -134,7 +137,11 @@ impl Extended {
     /// Goes to `input` \[N or m\] at `time` \[s\] within `step` \[s\]; the state is as before on an
     /// error.
     pub fn advance(&mut self, time: f64, step: f64, input: f64) -> Result<Answer, JointError> {
-        let limit = self.laws.slip_limit(&self.now);
+        let limit = if step > 0.0 {
+            self.laws.slip_limit(&self.now)
+        } else {
+            self.limit
+        };
         self.network.begin(limit);
         let slip = self.solve(step, input).map_err(|reason| {
             let full_slip = self.network.full_slip_force(input > 0.0);
@@ -149,6 +156,7 @@ impl Extended {
                 },
             }
         })?;
+        self.limit = limit;
         self.accept(time, step, input, slip);
         Ok(self.answer(input))
     }
@@ -231,7 +239,7 @@ impl Extended {
         if step > 0.0 {
             (displacement - self.now.displacement) / step
         } else {
-            0.0
+            self.now.velocity
         }
     }
 
@@ -255,7 +263,7 @@ impl Extended {
             slip_rate: if step > 0.0 {
                 (slip - from.slip) / step
             } else {
-                0.0
+                from.slip_rate
             },
             dissipation: from.dissipation + loss,
         };

@@ -23,7 +23,7 @@ pub use network::Network;
 pub use parameters::Parameter;
 pub use play::{PlayNetwork, Plays};
 pub use sensitivity::Sensitivity;
-pub use simulation::{Drive, Output, Simulation};
+pub use simulation::{Drive, Output, Simulation, time_passing};
 pub use virgin::{BehindSpring, VirginCurve};
 
 /// Segalman's augmented joint (Eq. 52): a spring K_1 in series with an Iwan network, and the

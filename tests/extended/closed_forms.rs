@@ -12,12 +12,13 @@ fn a_dashpot_adds_its_rate_and_its_loss() {
     let time = [0.0, 0.1, 0.3, 0.3, 0.4];
     let path = [0.2, 0.4, 0.1, -0.1, -0.1];
     let answers = joint.simulate(Drive::Displacement, &time, &path).unwrap();
-    let rates = [0.0, 2.0, -1.5, 0.0, 0.0];
+    // Where no time passes the rate stays, and its force does work on the way.
+    let rates = [0.0, 2.0, -1.5, -1.5, 0.0];
     let mut lost = 0.0;
     for i in 0..time.len() {
         assert!((answers[i].force - (4.0 * path[i] + 0.5 * rates[i])).abs() < 1e-14);
         lost += if i > 0 {
-            0.5 * rates[i] * rates[i] * (time[i] - time[i - 1])
+            0.5 * rates[i] * (path[i] - path[i - 1])
         } else {
             0.0
         };
@@ -29,6 +30,7 @@ fn a_dashpot_adds_its_rate_and_its_loss() {
         assert!((answers[i].stored_energy - 2.0 * path[i] * path[i]).abs() < 1e-14);
     }
     assert!((answers[1].dissipation_rate - 0.5 * 4.0).abs() < 1e-13);
+    assert_eq!(answers[3].dissipation_rate, 0.0);
 }
 
 #[test]

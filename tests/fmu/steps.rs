@@ -1,5 +1,6 @@
 //! Steps: sizes, times, refusals, input derivatives.
 
+use super::communication::uniform;
 use super::host::*;
 use iwan::fmu::*;
 use iwan::joint::{Drive, Simulation};
@@ -296,4 +297,172 @@ fn reset_starts_anew_from_any_mode() {
     unit.ok(unsafe { fmi2Reset(unit.handle) });
     start(&unit);
     assert_eq!(run(&unit), first);
+}
+
+fn derive(unit: &Unit, input: u32, [first, second, third]: [f64; 3]) {
+    let (references, orders, values) = ([input; 3], [1, 2, 3], [first, second, third]);
+    unit.ok(unsafe {
+        let (r, o, v) = (references.as_ptr(), orders.as_ptr(), values.as_ptr());
+        fmi2SetRealInputDerivatives(unit.handle, r, 3, o, v)
+    });
+}
+
+/// A turn within a step that rounding makes none: what is lost in no time has no power.
+#[test]
+fn a_turn_in_a_step_of_no_time_has_no_power() {
+    for json in [BOLT, BOLT_WITH_CAUSES] {
+        let resources = Resources::new(json);
+        let unit = Unit::stepping(&resources, Drive::Force);
+        unit.drive(FORCE, 300.0, 0.0, 1.0);
+        for set in [300.0, 310.0] {
+            unit.ok(unit.set(FORCE, set));
+            derive(&unit, FORCE, [1e-15, -100.0, 0.0]);
+            unit.ok(unit.step(1.0, 2e-17));
+            let answers = unit.get(&ANSWERS);
+            assert!(
+                answers.iter().all(|answer| answer.is_finite()),
+                "{answers:?}"
+            );
+            assert_eq!(unit.get(&[DISSIPATION_RATE]), [0.0]);
+        }
+    }
+}
+
+/// The input is set elsewhere than where the joint is, and goes on from there: the value set is a
+/// turning value.
+#[test]
+fn a_jump_to_where_derivatives_begin_is_a_turning_value() {
+    let resources = Resources::new(BOLT);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    unit.drive(FORCE, 500.0, 0.0, 0.1);
+    unit.ok(unit.set(FORCE, 900.0));
+    derive(&unit, FORCE, [-4000.0, 0.0, 0.0]);
+    unit.ok(unit.step(0.1, 0.1));
+    let mut simulation = Simulation::new(&resources.joint(), Drive::Force).unwrap();
+    for (time, force) in [(0.0, 0.0), (0.1, 500.0), (0.1, 900.0), (0.2, 500.0)] {
+        simulation.step(time, force).unwrap();
+    }
+    let expected = simulation.output();
+    println!("dissipation {} J", expected.dissipation);
+    let found = unit.get(&[DISPLACEMENT, DISSIPATION, STORED_ENERGY]);
+    let expected = [
+        expected.displacement,
+        expected.dissipation,
+        expected.stored_energy,
+    ];
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found / expected - 1.0).abs() <= 1e-12,
+            "{found} {expected}"
+        );
+    }
+}
+
+/// Where a quadratic changes its sign between two points, if it does; it is monotone between them.
+fn sign_change(quadratic: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
+    if low >= high || quadratic(low) * quadratic(high) >= 0.0 {
+        return None;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if quadratic(low) * quadratic(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// Random polynomials of every set of orders, from the present input or after a jump: as the
+/// simulation led through their extrema, which bisection finds on either side of the vertex.
+#[test]
+fn random_input_polynomials_are_followed_through_their_extrema() {
+    let mut seed = 20_260_121;
+    println!("seed {seed}");
+    let mut uniform = |low: f64, high: f64| low + (high - low) * uniform(&mut seed);
+    let resources = Resources::new(BOLT);
+    for (drive, input, output, range) in [
+        (Drive::Force, FORCE, DISPLACEMENT, 900.0),
+        (Drive::Displacement, DISPLACEMENT, FORCE, 1e-4),
+    ] {
+        let unit = Unit::stepping(&resources, drive);
+        let mut simulation = Simulation::new(&resources.joint(), drive).unwrap();
+        simulation.step(0.0, 0.0).unwrap();
+        let (mut time, mut largest, mut turns, mut worst) = (0.0, [0.0_f64; 3], 0, 0.0_f64);
+        for number in 0..700 {
+            let orders = 1 + number % 7;
+            let size = 10.0_f64.powf(uniform(-4.0, 0.0));
+            let jumps = uniform(0.0, 1.0) < 0.4;
+            let mut from = simulation.input() / range;
+            if jumps {
+                from = uniform(-0.95, 0.95);
+            }
+            let part = |order: i32, value: f64| if orders & order > 0 { value } else { 0.0 };
+            // In shares of the step and of the range; smaller until it stays within.
+            let mut shares = [
+                part(1, uniform(-4.0, 4.0)),
+                part(2, uniform(-8.0, 8.0)),
+                part(4, uniform(-8.0, 8.0)),
+            ];
+            let way = loop {
+                let [a, b, c] = shares;
+                let value = |s: f64| from + s * (a + s * (b + s * c));
+                let rate = |s: f64| a + s * (2.0 * b + s * 3.0 * c);
+                let vertex = (-b / (3.0 * c)).clamp(0.0, 1.0);
+                let vertex = if vertex.is_nan() { 0.0 } else { vertex };
+                let extrema = [
+                    sign_change(rate, 0.0, vertex),
+                    sign_change(rate, vertex, 1.0),
+                ];
+                let mut way = vec![(0.0, from)];
+                way.extend(extrema.into_iter().flatten().map(|s| (s, value(s))));
+                way.push((1.0, value(1.0)));
+                if way.iter().all(|(_, value)| value.abs() <= 0.99) {
+                    break way;
+                }
+                shares = shares.map(|share| 0.7 * share);
+            };
+            turns += way.len() - 2;
+            if jumps || number == 0 {
+                unit.ok(unit.set(input, range * from));
+            } else {
+                unit.ok(unit.set(input, simulation.input()));
+            }
+            let [a, b, c] = shares.map(|share| range * share);
+            let derivatives = [
+                a / size,
+                2.0 * b / (size * size),
+                6.0 * c / (size * size * size),
+            ];
+            derive(&unit, input, derivatives);
+            unit.ok(unit.step(time, size));
+            for (share, value) in way {
+                let at = (time + share * size).max(simulation.output().time);
+                simulation.step(at, range * value).unwrap();
+            }
+            time = simulation.output().time;
+            let expected = simulation.output();
+            let expected = [
+                match drive {
+                    Drive::Force => expected.displacement,
+                    Drive::Displacement => expected.force,
+                },
+                expected.dissipation,
+                expected.stored_energy,
+            ];
+            let found = unit.get(&[output, DISSIPATION, STORED_ENERGY]);
+            for place in 0..3 {
+                largest[place] = largest[place].max(expected[place].abs());
+                let apart = (found[place] - expected[place]).abs() / largest[place];
+                worst = worst.max(apart);
+                assert!(
+                    apart <= 1e-9,
+                    "{drive:?}, {number}, answer {place}: {found:?} {expected:?}"
+                );
+            }
+        }
+        println!("{drive:?}: {turns} turns, largest difference {worst:e}");
+        assert!(turns > 100);
+    }
 }

@@ -1,10 +1,10 @@
 //! The complete state of the extended joint, as numbers, and the way back to one.
 
-use super::{Extended, JointError, Situation};
+use super::{Extended, JointError, Situation, SlipLimit};
 use crate::joint::sensitivity::Sensitivity;
 
 /// Numbers before the network's in a saved state.
-const SITUATION: usize = 15;
+const SITUATION: usize = 17;
 
 impl Extended {
     /// Notes the present state, to go back to; allocates nothing.
@@ -52,6 +52,8 @@ impl Extended {
             self.slopes.displacement,
             self.slopes.dissipation,
             self.slopes.stored_energy,
+            self.limit.positive,
+            self.limit.negative,
         ]);
         self.network.save(state);
         self.ledger.save(state);
@@ -79,6 +81,8 @@ impl Extended {
             by_displacement,
             by_dissipation,
             by_stored,
+            limit_up,
+            limit_down,
             rest @ ..,
         ] = state
         else {
@@ -104,6 +108,10 @@ impl Extended {
             slip_displacement: 1.0,
             dissipation: *by_dissipation,
             stored_energy: *by_stored,
+        };
+        self.limit = SlipLimit {
+            positive: *limit_up,
+            negative: *limit_down,
         };
         let (sliders, rest) = rest.split_at(network);
         let (account, memory) = rest.split_at(ledger);
