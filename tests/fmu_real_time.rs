@@ -224,16 +224,71 @@ fn a_full_memory_and_a_restored_one_allocate_nothing() {
 /// left of them.
 #[test]
 fn ten_thousand_instances_leave_nothing_behind() {
-    let resources = Resources::new(BOLT);
-    let one = || {
-        let unit = Unit::stepping(&resources, Drive::Force);
-        cycle(&unit, FORCE, 300.0, (0.0, 0.1));
-        let state = unit.save();
-        unit.error(unit.step(0.1, f64::NAN));
-        unit.ok(unsafe { fmi2SetFMUstate(unit.handle, state) });
-        unit.free_state(state);
-        unit.ok(unsafe { fmi2Reset(unit.handle) });
-    };
+    for json in [BOLT, BOLT_WITH_CAUSES] {
+        let resources = Resources::new(json);
+        let one = || {
+            let unit = Unit::stepping(&resources, Drive::Force);
+            cycle(&unit, FORCE, 300.0, (0.0, 0.1));
+            let state = unit.save();
+            unit.error(unit.step(0.1, f64::NAN));
+            unit.ok(unsafe { fmi2SetFMUstate(unit.handle, state) });
+            unit.free_state(state);
+            unit.ok(unsafe { fmi2Reset(unit.handle) });
+        };
+        nothing_is_left_by_ten_thousand(one);
+    }
+}
+
+/// The same under the functions of FMI 3.0.
+#[test]
+fn ten_thousand_instances_of_fmi_3_leave_nothing_behind() {
+    use iwan::variables::guid;
+    use std::ptr::{null, null_mut};
+    for json in [BOLT, BOLT_WITH_CAUSES] {
+        let resources = Resources::new(json);
+        let token = std::ffi::CString::new(guid(json, Drive::Force)).unwrap();
+        let path = std::ffi::CString::new(resources.folder.display().to_string()).unwrap();
+        let ok = |status: Status| assert_eq!(status, Status::Ok);
+        nothing_is_left_by_ten_thousand(|| unsafe {
+            let (token, path, name) = (token.as_ptr(), path.as_ptr(), c"bolt".as_ptr());
+            let none = null_mut();
+            let unit = fmi3InstantiateCoSimulation(
+                name,
+                token,
+                path,
+                0,
+                0,
+                0,
+                0,
+                null(),
+                0,
+                none,
+                None,
+                null(),
+            );
+            assert!(!unit.is_null());
+            ok(fmi3EnterInitializationMode(unit, 0, 0.0, 0.0, 0, 0.0));
+            ok(fmi3ExitInitializationMode(unit));
+            let ([mut event, mut end, mut early], mut time, mut state) = ([7; 3], 7.0, null_mut());
+            ok(fmi3SetFloat64(unit, &FORCE, 1, &300.0, 1));
+            let mut step = |size| {
+                fmi3DoStep(
+                    unit, 0.0, size, 1, &mut event, &mut end, &mut early, &mut time,
+                )
+            };
+            ok(step(0.1));
+            assert_eq!(step(f64::NAN), Status::Error);
+            ok(fmi3GetFMUState(unit, &mut state));
+            ok(fmi3SetFMUState(unit, state));
+            ok(fmi3FreeFMUState(unit, &mut state));
+            ok(fmi3Reset(unit));
+            fmi3FreeInstance(unit);
+        });
+    }
+}
+
+#[track_caller]
+fn nothing_is_left_by_ten_thousand(one: impl Fn()) {
     one();
     let before = LIVE.get();
     for _ in 0..10_000 {
