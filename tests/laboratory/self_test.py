@@ -227,6 +227,8 @@ class Cases(unittest.TestCase):
     def test_a_case_is_repeatable_and_keeps_its_truth_apart(self):
         records, truth, style = draw_case(5, 0, "pinning", 3.0)
         again, other, _ = draw_case(5, 0, "pinning", 3.0)
+        for heard, anew in zip(truth.pop("heard"), other.pop("heard"), strict=True):
+            np.testing.assert_array_equal(heard, anew)
         self.assertEqual(truth, other)
         np.testing.assert_array_equal(records[0][2], again[0][2])
         self.assertAlmostEqual(truth["ratio_achieved"], 3.0, delta=0.1)
