@@ -75,6 +75,22 @@ pub(super) fn lag(x: f64) -> [f64; 3] {
     [1.0 - gone, gone - new, new]
 }
 
+/// Displacement of an element (J, τ) after a step in which the force goes straight, and its slope over
+/// the force at the end.
+fn after(
+    (compliance, time_constant): (f64, f64),
+    crept: f64,
+    (from, to): (f64, f64),
+    step: f64,
+) -> Response {
+    let [kept, old, new] = lag(step / time_constant);
+    Response {
+        value: kept * crept + compliance * (old * from + new * to),
+        slope: compliance * new,
+        damping: 0.0,
+    }
+}
+
 impl Effect for Creep {
     fn name(&self) -> &'static str {
         "creep"
@@ -91,9 +107,8 @@ impl Effect for Creep {
     }
     fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
         if let [last, crept @ ..] = memory {
-            for ((compliance, time_constant), crept) in elements(values).zip(crept) {
-                let [kept, old, new] = lag(now.step / time_constant);
-                *crept = kept * *crept + compliance * (old * *last + new * now.force);
+            for (element, crept) in elements(values).zip(crept) {
+                *crept = after(element, *crept, (*last, now.force), now.step).value;
             }
             *last = now.force;
         }
@@ -101,10 +116,10 @@ impl Effect for Creep {
     fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
         let mut sum = Response::default();
         if let [last, crept @ ..] = memory {
-            for ((compliance, time_constant), crept) in elements(values).zip(crept) {
-                let [kept, old, new] = lag(step / time_constant);
-                sum.value += kept * crept + compliance * (old * last + new * force);
-                sum.slope += compliance * new;
+            for (element, crept) in elements(values).zip(crept) {
+                let one = after(element, *crept, (*last, force), step);
+                sum.value += one.value;
+                sum.slope += one.slope;
             }
         }
         sum

@@ -73,6 +73,32 @@ fn slid(stands: f64, threshold: f64, (up, down): (f64, f64), excess: f64) -> (f6
 /// Slide per increment while the excess falls.
 const FALLING: f64 = 1.0 / (1.0 - FALL);
 
+/// Tries every operator: how far from rest it stands by its position, and where a slide leads it, with
+/// its tangent, from what of an increment the slide follows.
+#[inline(always)]
+fn tried(
+    at: Columns<'_>,
+    bonds: &Bonds,
+    limits: (f64, f64),
+    stands: impl Fn(f64) -> f64,
+    after: impl Fn(f64, f64, f64) -> (f64, f64),
+) -> (f64, f64) {
+    let mut tangent = [0.0; LANES];
+    let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
+    for ((trial, weight), ((position, threshold), left)) in
+        at.trial.iter_mut().zip(at.weights).zip(held)
+    {
+        for i in 0..LANES {
+            let excess = bonds.excess * left[i];
+            let (slide, follows) = slid(stands(position[i]), threshold[i], limits, excess);
+            let (place, rise) = after(position[i], slide, follows);
+            trial[i] = place;
+            tangent[i] += weight[i] * rise;
+        }
+    }
+    (sum(at.trial, at.weights), total(tangent))
+}
+
 pub(super) struct Plays<'a>(Columns<'a>, &'a Bonds, f64, (f64, f64));
 
 impl NullaryFnOnce for Plays<'_> {
@@ -81,19 +107,8 @@ impl NullaryFnOnce for Plays<'_> {
     #[inline(always)]
     fn call(self) -> (f64, f64) {
         let Plays(at, bonds, input, limits) = self;
-        let mut tangent = [0.0; LANES];
-        let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
-        for ((trial, weight), ((position, threshold), left)) in
-            at.trial.iter_mut().zip(at.weights).zip(held)
-        {
-            for i in 0..LANES {
-                let stands = input - position[i];
-                let (slide, follows) = slid(stands, threshold[i], limits, bonds.excess * left[i]);
-                trial[i] = position[i] + slide;
-                tangent[i] += weight[i] * follows;
-            }
-        }
-        (sum(at.trial, at.weights), total(tangent))
+        let after = |position, slide, follows| (position + slide, follows);
+        tried(at, bonds, limits, |position| input - position, after)
     }
 }
 
@@ -105,19 +120,9 @@ impl NullaryFnOnce for Stops<'_> {
     #[inline(always)]
     fn call(self) -> (f64, f64) {
         let Stops(at, bonds, increment, limits) = self;
-        let mut tangent = [0.0; LANES];
-        let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
-        for ((trial, weight), ((position, threshold), left)) in
-            at.trial.iter_mut().zip(at.weights).zip(held)
-        {
-            for i in 0..LANES {
-                let stands = position[i] + increment;
-                let (slide, follows) = slid(stands, threshold[i], limits, bonds.excess * left[i]);
-                trial[i] = stands - slide;
-                tangent[i] += weight[i] * (1.0 - follows);
-            }
-        }
-        (sum(at.trial, at.weights), total(tangent))
+        let stands = |position| position + increment;
+        let after = |position, slide, follows| (stands(position) - slide, 1.0 - follows);
+        tried(at, bonds, limits, stands, after)
     }
 }
 

@@ -175,9 +175,10 @@ fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps
     if fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
         return fit;
     }
-    let farther = strided(problem, fit.clone(), steps.before);
-    if farther.misfit >= fit.misfit {
-        return fit;
+    let reached = fit.misfit;
+    let farther = strided(problem, fit, steps.before);
+    if farther.misfit >= reached {
+        return farther;
     }
     descend(problem, farther.coefficients, farther.effects, steps)
 }

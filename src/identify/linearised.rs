@@ -54,13 +54,12 @@ impl<'a> Linearised<'a> {
             problem,
             coefficients,
             effects,
+            normal: normal(problem, coefficients, effects, &at, &slopes),
             at,
             slopes,
-            normal: Normal::new(0),
             solution: Vec::new(),
             misfit: 0.0,
         };
-        step.normal = normal(problem, coefficients, effects, &step.at, &step.slopes);
         step.solution = step.normal.solve(&step.bounded());
         step.misfit = step.normal.misfit(&step.solution);
         step

@@ -62,15 +62,20 @@ impl Slider {
         (force, if sticks { self.weight } else { 0.0 })
     }
 
-    /// Lets go what stands above the limit: with an excess the limit falls as it slides, `f' = φ + e −
-    /// β (f − f')` down to φ.
-    fn relax(&mut self, limit: SlipLimit, excess: f64) {
+    /// Force at which it slides towards the side on which it stands \[N\].
+    fn kinetic(&self, limit: SlipLimit) -> f64 {
         let share = if self.force < 0.0 {
             limit.negative
         } else {
             limit.positive
         };
-        let kinetic = self.strength * share;
+        self.strength * share
+    }
+
+    /// Lets go what stands above the limit: with an excess the limit falls as it slides, `f' = φ + e −
+    /// β (f − f')` down to φ.
+    fn relax(&mut self, limit: SlipLimit, excess: f64) {
+        let kinetic = self.kinetic(limit);
         let full = kinetic * excess;
         let stands = self.force.abs();
         let fallen = (kinetic + full * self.bond - FALL * stands) / (1.0 - FALL);
@@ -82,12 +87,7 @@ impl Slider {
 
     /// Takes the slide of an accepted step off the excess.
     fn wear(&mut self, slide: f64, limit: SlipLimit, excess: f64) {
-        let share = if self.force < 0.0 {
-            limit.negative
-        } else {
-            limit.positive
-        };
-        let kinetic = self.strength * share;
+        let kinetic = self.kinetic(limit);
         self.bond = left(
             self.open_bond,
             slide,
