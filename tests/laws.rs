@@ -36,8 +36,8 @@ const NAMES: [&str; 23] = [
 ];
 
 /// Units of the glossaries, as FMI writes them.
-const UNITS: [&str; 17] = [
-    "1", "m", "s", "Hz", "N", "J", "kg", "m/s", "N/m", "m/N", "1/N", "1/m", "1/m2", "m/N3",
+const UNITS: [&str; 18] = [
+    "1", "m", "s", "Hz", "N", "J", "kg", "m/s", "N/m", "m/N", "1/N", "1/N2", "1/m", "1/m2", "m/N3",
     "N.s/m", "N.s2/m2", "1/s",
 ];
 

@@ -1,5 +1,7 @@
 //! Samples that stand alone are found; noise, kinks and smooth channels are left as they are.
 
+use iwan::identify::{Form, Problem, baseline};
+use iwan::record::Record;
 use iwan::record::outliers::{Neighbours, outliers, scattered};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -57,4 +59,76 @@ fn what_comes_back_at_one_load_of_every_cycle_is_no_spark() {
     assert!(all.contains(&(80 * 20 + 19)), "{all:?}");
     let left: Vec<usize> = scattered(found, &drive).iter().map(|o| o.0).collect();
     assert_eq!(left, sparks);
+}
+
+/// A slider at its limit until the drive turns: the force is level and then falls ever faster. Most of the
+/// record is slow and small, so that the bend exceeds what its samples are used to.
+#[test]
+fn the_knee_behind_a_turn_is_no_spark() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let (mut force, mut last) = (0.0_f64, 0.0);
+    let mut channel: Vec<f64> = (0..6000)
+        .map(|i| {
+            let (amplitude, per_cycle) = if i < 5000 { (0.4, 400.0) } else { (6.0, 70.0) };
+            let driven = amplitude * (std::f64::consts::TAU * f64::from(i) / per_cycle).sin();
+            force = (force + 300.0 * (driven - last)).clamp(-600.0, 600.0);
+            last = driven;
+            force + normal(&mut random)
+        })
+        .collect();
+    assert_eq!(outliers(&channel, Neighbours::Line), Vec::new());
+    channel[5511] += 200.0;
+    let found: Vec<usize> = outliers(&channel, Neighbours::Line)
+        .iter()
+        .map(|o| o.0)
+        .collect();
+    assert_eq!(found, [5511]);
+}
+
+/// A spike at every turn of a triangle that grows from cycle to cycle: no two of them at one level.
+#[test]
+fn what_comes_back_at_every_turn_is_no_spark() {
+    let half = |i: i32| f64::from((i % 80 - 40).abs() - 20);
+    let drive: Vec<f64> = (0..2000)
+        .map(|i| half(i) * (1.0 + 0.2 * f64::from(i / 80)))
+        .collect();
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut residual: Vec<f64> = (0..2000).map(|_| normal(&mut random)).collect();
+    (1..25).for_each(|cycle| residual[80 * cycle + 1] += 40.0);
+    let sparks = [411, 1060, 1740];
+    sparks.iter().for_each(|&i| residual[i] += 40.0);
+    let left: Vec<usize> = scattered(outliers(&residual, Neighbours::Level), &drive)
+        .iter()
+        .map(|o| o.0)
+        .collect();
+    assert_eq!(left, sparks);
+}
+
+/// What was written over a sample that was struck out does not matter, to it or to its neighbours, in
+/// noise that is whitened.
+#[test]
+fn a_struck_sample_leaves_its_neighbours_alone() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let force: Vec<f64> = (0..800)
+        .map(|i| 900.0 * (0.05 * f64::from(i)).sin())
+        .collect();
+    let record = Record {
+        name: "struck".into(),
+        displacement: force
+            .iter()
+            .map(|f| 1e-8 * f + 1e-9 * normal(&mut random))
+            .collect(),
+        force,
+        ..Record::default()
+    };
+    let misfit = |written: f64| {
+        let mut problem = Problem::new(Form::Play, std::slice::from_ref(&record));
+        let prepared = &mut problem.records[0];
+        prepared.autoregression = 0.8;
+        prepared.weight[300] = 0.0;
+        prepared.displacement[300] += written;
+        baseline(&problem).misfit
+    };
+    let (untouched, overwritten) = (misfit(0.0), misfit(1e-5));
+    assert!((overwritten / untouched - 1.0).abs() < 1e-9);
 }

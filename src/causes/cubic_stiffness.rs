@@ -5,22 +5,37 @@ use crate::joint::effect::{Effect, Place, Response};
 use crate::joint::elementary::cube;
 use crate::joint::parameters::Parameter;
 
-/// A displacement of the spring beyond F/K_1, `δ = b F³`; positive softens, negative hardens.
+/// A displacement of the spring beyond F/K_1, `δ = b F³ / (1 + c F²)`, for a negative c
+/// `b F³ (1 − c F²)`; a positive b softens, a negative one hardens.
 ///
-/// A hardening law holds up to the force where `3 |b| F²` uses up the compliance of joint and
-/// spring: beyond it displacement would fall with force, which no spring does.
+/// A hardening law with c = 0 holds up to the force where `3 |b| F²` uses up the compliance of joint and
+/// spring: beyond it displacement would fall with force, which no spring does. A spring that hardens
+/// goes over to a stiffness of its own instead, which is what c is for; with b it is the
+/// first odd terms of the spring's law as a quotient.
 pub struct CubicStiffness;
 
-static PARAMETERS: [Parameter; 1] = [Parameter {
-    name: "cubic_compliance",
-    symbol: "b",
-    unit: "m/N3",
-    lower: -1.0,
-    upper: 1.0,
-    vanishes_at: Some(0.0),
-    neutral: None,
-    meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens",
-}];
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "cubic_compliance",
+        symbol: "b",
+        unit: "m/N3",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        neutral: None,
+        meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens",
+    },
+    Parameter {
+        name: "levelling",
+        symbol: "c",
+        unit: "1/N2",
+        lower: -1e6,
+        upper: 1e6,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "how the cube levels off: to half of it where c F^2 = 1; negative: it grows as a fifth power",
+    },
+];
 
 impl Effect for CubicStiffness {
     fn name(&self) -> &'static str {
@@ -33,9 +48,17 @@ impl Effect for CubicStiffness {
         &PARAMETERS
     }
     fn spring(&self, values: &[f64], force: f64) -> Response {
+        let (square, levelled) = (force * force, values[1] * force * force);
+        let (value, slope) = match levelled > 0.0 {
+            true => {
+                let whole = 1.0 + levelled;
+                (1.0 / whole, (3.0 + levelled) / (whole * whole))
+            }
+            false => (1.0 - levelled, 3.0 - 5.0 * levelled),
+        };
         Response {
-            value: values[0] * force * force * force,
-            slope: 3.0 * values[0] * force * force,
+            value: values[0] * square * force * value,
+            slope: values[0] * square * slope,
             damping: 0.0,
         }
     }
@@ -48,7 +71,7 @@ impl Cause for CubicStiffness {
             sign: "Backbone of the loops bends with the third power of the force while their area stays as it was; equal in tension and compression, in every cycle and at every rate; third harmonic in phase with the force.",
             mistaken_for: &["pinning", "sensor_nonlinearity", "joint_opening"],
             separated_by: "It sets in from zero force, pinning beyond a gap; unloading branches bend as loading ones do, while microslip bends each branch anew; a dummy specimen shows a sensor's cube and not this one.",
-            formula: "U = u + F/K_1 + b F^3; hardening holds while 3 |b| F^2 is less than the compliance of joint and spring",
+            formula: "U = u + F/K_1 + b F^3 / (1 + c F^2), for c < 0 b F^3 (1 - c F^2); with c = 0 hardening holds while 3 |b| F^2 is less than the compliance of joint and spring",
             source: "First odd term of a non-linear elastic spring (Duffing), written in compliance.",
         }
     }
@@ -56,7 +79,10 @@ impl Cause for CubicStiffness {
         &CubicStiffness
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.01 * scale.displacement / cube(scale.force)]]
+        vec![vec![0.01 * scale.displacement / cube(scale.force), 0.0]]
+    }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        vec![values[0], 0.3 / (scale.force * scale.force)]
     }
 }
 
@@ -66,8 +92,20 @@ mod tests {
 
     #[test]
     fn displacement_is_the_cube_of_the_force() {
-        let at = |force| CubicStiffness.spring(&[0.5], force);
+        let at = |force| CubicStiffness.spring(&[0.5, 0.0], force);
         assert_eq!((at(2.0).value, at(-2.0).value), (4.0, -4.0));
         assert_eq!((at(2.0).slope, at(-2.0).slope), (6.0, 6.0));
+    }
+
+    #[test]
+    fn the_cube_levels_off_or_grows_on_smoothly() {
+        let at = |levelling, force| CubicStiffness.spring(&[0.5, levelling], force);
+        assert_eq!((at(0.25, 2.0).value, at(-0.25, 2.0).value), (2.0, 8.0));
+        for (levelling, force) in [(0.25, 2.0), (-0.25, 2.0), (0.7, -0.3), (-0.7, -0.3)] {
+            let step = 1e-6;
+            let (above, below) = (at(levelling, force + step), at(levelling, force - step));
+            let slope = (above.value - below.value) / (2.0 * step);
+            assert!((at(levelling, force).slope - slope).abs() < 1e-8);
+        }
     }
 }

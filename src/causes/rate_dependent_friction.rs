@@ -5,7 +5,7 @@ use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::{expm1, log1p};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + |v|/v_0)`, where v follows u̇ over
+/// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + v/v_0)`, where v follows |u̇| over
 /// a short memory, see [`follow_rate`].
 pub struct RateDependentFriction;
 
@@ -39,12 +39,14 @@ const RENEWAL: f64 = 0.05;
 pub(super) const RATE_MEMORY: usize = 4;
 
 /// Takes a sample into the history `[v, lowest u, highest u, fastest |u̇|]`: v approaches the slip
-/// rate within the time that the fastest slip so far takes for a distance d of [`RENEWAL`],
-/// `v += (u̇ − v)(1 − exp(−|u̇|_max Δt / d))`.
+/// rate's magnitude within the time that the fastest slip so far takes for a distance d of [`RENEWAL`],
+/// `v += (|u̇| − v)(1 − exp(−|u̇|_max Δt / d))`.
 ///
 /// Contacts renew themselves over a slip distance (Dieterich's memory) and forget while they rest;
 /// the limit that this sample answers with is known only in the next one, and without a memory, or
-/// with one that a surge of slip shortens, it would swing from step to step.
+/// with one that a surge of slip shortens, it would swing from step to step. A contact that turns has
+/// been sliding a moment ago: a memory of the rate with its sign would pass through rest behind every
+/// turn, and so short a rest that the distance between samples would decide what is seen of it.
 pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
     if let [rate, low, high, fastest] = memory {
         *low = low.min(now.slip);
@@ -52,7 +54,7 @@ pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
         *fastest = fastest.max(now.slip_rate.abs());
         let renewal = RENEWAL * (*high - *low);
         if renewal > 0.0 {
-            *rate -= expm1(-*fastest * now.step / renewal) * (now.slip_rate - *rate);
+            *rate -= expm1(-*fastest * now.step / renewal) * (now.slip_rate.abs() - *rate);
         }
     }
 }
@@ -74,7 +76,7 @@ impl Effect for RateDependentFriction {
         follow_rate(now, memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 + values[0] * log1p(memory[0].abs() / values[1]);
+        let limit = 1.0 + values[0] * log1p(memory[0] / values[1]);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -94,7 +96,7 @@ impl Cause for RateDependentFriction {
                 "sensor_delay",
             ],
             separated_by: "Two decades of frequency: steps are equal per decade here and proportional to frequency with a dashpot, and the effect is absent below slip; weakening has the other sign.",
-            formula: "phi = phi_0 [1 + a ln(1 + |v|/v_0)], v following du/dt over a short memory",
+            formula: "phi = phi_0 [1 + a ln(1 + v/v_0)], v following |du/dt| over a short memory",
             source: "Direct effect of rate-and-state friction, Dieterich 1979 and Ruina 1983, regularised at rest.",
         }
     }
@@ -135,5 +137,25 @@ mod tests {
         let limit = RateDependentFriction.slip_limit(&values, &Situation::default(), &memory);
         assert!((limit.positive - (1.0 + 0.1 * 2.0_f64.ln())).abs() < 1e-9);
         assert_eq!(limit.positive, limit.negative);
+    }
+
+    #[test]
+    fn a_contact_that_turns_keeps_the_rate_it_slid_with() {
+        let mut memory = [0.0; RATE_MEMORY];
+        let mut slide = |slip: f64, slip_rate: f64| {
+            let now = Situation {
+                step: 0.01,
+                slip,
+                slip_rate,
+                ..Situation::default()
+            };
+            follow_rate(&now, &mut memory);
+            memory[0]
+        };
+        let forth = (1..=2000).fold(0.0, |_, i| slide(1e-5 * f64::from(i), 1e-3));
+        let back = (1..=200).fold(f64::INFINITY, |least: f64, i| {
+            least.min(slide(0.02 - 1e-5 * f64::from(i), -1e-3))
+        });
+        assert!((forth - 1e-3).abs() < 1e-9 && (back - 1e-3).abs() < 1e-9);
     }
 }

@@ -67,9 +67,10 @@ fn blocks(bench: &Bench, predictions: &[Prediction]) -> Vec<(f64, f64)> {
     let mut blocks = Vec::new();
     for (k, held) in bench.held.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
+        let unseen = |i: &usize| held[*i] && bench.whole.records[k].counts(*i);
         for pair in edges(input).windows(2) {
             let (mut square, mut count) = (0.0, 0.0);
-            for i in (pair[0]..pair[1]).filter(|&i| held[i]) {
+            for i in (pair[0]..pair[1]).filter(unseen) {
                 square += (judged[i] - predictions[k].judged[i]).powi(2);
                 count += 1.0;
             }
@@ -89,7 +90,8 @@ pub fn errors(bench: &Bench, predictions: &[Prediction]) -> Errors {
     for (k, held) in bench.held.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
         let predicted = &predictions[k].judged;
-        for (i, _) in held.iter().enumerate().filter(|(_, held)| !**held) {
+        let seen = |i: &usize| !held[*i] && bench.whole.records[k].counts(*i);
+        for i in (0..held.len()).filter(seen) {
             fitted.0 += (judged[i] - predicted[i]).powi(2);
             fitted.1 += 1.0;
         }

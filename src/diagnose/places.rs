@@ -4,7 +4,7 @@ use super::prepare::Bench;
 use super::tested::{Prospect, beyond_unseen};
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
 use super::verdict::NEGLIGIBLE;
-use crate::identify::{Fit, Problem, refit};
+use crate::identify::{Fit, Problem, refit, without};
 use crate::joint::effect::Acting;
 
 /// One cause's place.
@@ -30,16 +30,16 @@ pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Pl
         .map(|place| {
             let mut others = best.effects.clone();
             let named = others.remove(place).effect.name();
-            let without = alone(problem, best, others, first);
-            let brought = without.misfit - best.misfit;
+            let brought = alone(problem, best, others, first).misfit - best.misfit;
             let wanted = as_well(problem, best, brought).max(best.misfit + unseen);
             let trials = match best.effects.len() {
                 1 => first.to_vec(),
+                // The others as they are beside the named one: refitted without it they take parts of it.
                 _ => trials(
                     problem,
                     &bench.scale,
                     timed,
-                    &without,
+                    &without(problem, best, place),
                     (Effort::Full, wanted),
                 ),
             };

@@ -11,6 +11,9 @@ use crate::identify::{Fit, Problem};
 /// the named cause's law being only nearly right.
 const FURTHER_SHARE: f64 = 0.10;
 
+/// Part of that share which is enough of a set that leaves nothing beyond scatter.
+const COMPLETE: f64 = 0.3;
+
 /// Share of its rows, beyond scatter, from which what a set leaves may be a second cause.
 const STRUCTURE: f64 = 0.05;
 
@@ -154,8 +157,13 @@ fn settled(
     (best, places)
 }
 
-/// Misfit that each of several causes has to take away: enough evidence, and its share.
+/// Misfit that each of several causes has to take away: enough evidence, and its share, which is
+/// smaller where together they leave nothing: a law that is only nearly right is not mended wholly by another's.
 fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
+    let least = match places::beyond_scatter(problem, fit) > 0.0 {
+        true => least,
+        false => COMPLETE * least,
+    };
     least.max(ALARM * dispersion(problem, fit))
 }
 

@@ -50,15 +50,16 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         let record = &problem.records[k];
         let mut white = Vec::with_capacity(judged.len());
         let mut before = None;
-        for (&y, &p) in judged.iter().zip(&prediction.judged) {
+        for (i, (&y, &p)) in judged.iter().zip(&prediction.judged).enumerate() {
             white.push(whiten(record.autoregression, y - p, before).0);
-            before = Some(y - p);
+            before = record.counts(i).then_some(y - p);
         }
         correlations.push(neighbours(&white));
         for (from, to, phases) in pieces(input) {
             let mut own = vec![Bin::new(k, from, to); phases];
             for (start, end) in cuts(input, from, to) {
-                for (i, &value) in white[start..end].iter().enumerate() {
+                let witnesses = (start..end).filter(|&i| record.counts(i));
+                for (i, value) in witnesses.map(|i| (i - start, white[i])) {
                     let phase = i * phases / (end - start).max(1);
                     own[phase.min(phases - 1)].add(value);
                 }

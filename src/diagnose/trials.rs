@@ -52,6 +52,9 @@ const WORTH: f64 = 0.03;
 /// thousand by chance.
 const REFINED: f64 = 10.0;
 
+/// Share of the fall that is wanted by which a law may stay behind before its refinements are fitted.
+const UNREFINED: f64 = 0.1;
+
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
@@ -75,6 +78,8 @@ pub fn trials(
         Effort::Full => 2,
     };
     let try_one = |(cause, scores): &Scored, bound: f64| {
+        // What a refinement takes away is not known before it is fitted.
+        let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
         let best = scores
             .iter()
             .take(shapes)

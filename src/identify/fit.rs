@@ -92,6 +92,18 @@ pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
     refit_below(problem, start, effects, f64::INFINITY)
 }
 
+/// The fit without one of its effects, the others as they are and the dictionary as it suits them.
+pub fn without(problem: &Problem, fit: &Fit, place: usize) -> Fit {
+    let mut less = fit.clone();
+    less.effects.remove(place);
+    let acting = less.acting();
+    let predictions = problem.predict(&less.coefficients, &acting);
+    less.coefficients = projected(problem, &less.coefficients, &acting, &predictions);
+    let predictions = problem.predict(&less.coefficients, &acting);
+    (less.misfit, less.offsets) = problem.misfit(&predictions);
+    less
+}
+
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.
 pub fn refit_below(problem: &Problem, start: &Fit, effects: Vec<Acting>, bound: f64) -> Fit {
     let steps = Steps {

@@ -28,7 +28,7 @@ pub mod table;
 mod walk;
 
 pub use family::{FamilyError, FamilyFit};
-pub use fit::{Fit, baseline, refit, refit_below};
+pub use fit::{Fit, baseline, refit, refit_below, without};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use problem::{Prediction, Prepared, Problem};

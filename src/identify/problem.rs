@@ -61,6 +61,11 @@ impl Prepared {
         self.time.last().unwrap_or(&0.0) - self.time.first().unwrap_or(&0.0)
     }
 
+    /// True where the sample is a witness: one that was struck out stands for its neighbours.
+    pub fn counts(&self, sample: usize) -> bool {
+        self.weight[sample] > 0.0
+    }
+
     /// Measured input and measured judged channel of a form.
     pub fn channels(&self, form: Form) -> (&[f64], &[f64]) {
         match form {
@@ -199,7 +204,7 @@ impl Problem {
             for ((&y, &p), &w) in measured.iter().zip(&prediction.judged).zip(&record.weight) {
                 let residual = y - p;
                 let (z, one) = whiten(record.autoregression, residual, before);
-                before = Some(residual);
+                before = (w > 0.0).then_some(residual);
                 squares += (w * z).powi(2);
                 product += w * w * z * one;
                 norm += (w * one).powi(2);
@@ -243,13 +248,14 @@ impl<'a> Weighing<'a> {
         }
     }
 
-    /// The whitened, weighted row of sample `i`; `None` where the sample has no weight.
+    /// The whitened, weighted row of sample `i`; `None` where the sample has no weight. Behind such a
+    /// sample whitening begins anew: what was struck out or held out says nothing of its neighbour.
     #[inline]
     pub fn weigh(&mut self, i: usize, row: &[f64]) -> Option<&[f64]> {
         let weight = self.record.weight[i];
         let a = self.record.autoregression;
         if weight > 0.0 {
-            let (factor, scale) = if i > 0 {
+            let (factor, scale) = if i > 0 && self.record.counts(i - 1) {
                 (a, weight)
             } else {
                 (0.0, weight * (1.0 - a * a).max(0.0).sqrt())
