@@ -57,7 +57,7 @@ fn causes_without_a_history_of_their_own_answer_alike_at_any_step() {
         acting("pinning", &[1e7, 3e-6, 4e-6, 1.0, 0.0]),
         acting("clearance", &[2e-6, 20.0]),
         acting("slack_growth", &[1e-8, 100.0, 20.0]),
-        acting("cubic_stiffness", &[1e-14]),
+        acting("cubic_stiffness", &[1e-14, 1e-5]),
         acting("joint_opening", &[2e-9, 50.0]),
         acting("asymmetric_friction", &[0.2]),
     ];
@@ -93,9 +93,11 @@ fn errors_of_causes_that_follow_the_joint_fall_with_the_step() {
         let [coarse, middle, fine] = errors(vec![case.clone()]);
         println!("| `{name}` | {coarse:.1e} | {middle:.1e} | {fine:.1e} |");
         assert!(coarse > 1e-9, "{name}: {coarse} is no dependence");
-        // First order is a factor of four from the second to the third; errors of both signs and
-        // contacts that let go one by one make it uneven.
-        assert!(fine < 0.5 * middle, "{name}: {coarse}, {middle}, {fine}");
+        // First order is a factor of four from one to the next; contacts that let go one by one make it
+        // uneven, and an error that changes its sign between two of them makes one of them small: that of a
+        // limit that follows the rate does where the steps begin to resolve its memory.
+        let coarser = middle.max(0.25 * coarse);
+        assert!(fine < 0.5 * coarser, "{name}: {coarse}, {middle}, {fine}");
         assert!(middle < 0.05, "{name}: {middle} at 64 steps");
     }
 }

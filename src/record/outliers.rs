@@ -83,8 +83,8 @@ fn parts(drive: &[f64]) -> Vec<usize> {
             false => PARTS,
         };
         let long = (to - from).max(1);
-        for i in from..=to {
-            parts[i] = (begins + (PARTS * (i - from) + long / 2) / long) % (2 * PARTS);
+        for (after, part) in parts[from..=to].iter_mut().enumerate() {
+            *part = (begins + (PARTS * after + long / 2) / long) % (2 * PARTS);
         }
     }
     parts

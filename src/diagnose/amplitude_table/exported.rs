@@ -77,7 +77,7 @@ pub fn joint(levels: &Levels, model: &Model, known: &Known) -> Result<Joint, Joi
 pub fn parameters(shown: Shown, size: f64, stiffness: f64) -> Vec<f64> {
     match shown {
         Shown::Viscous | Shown::Quadratic => vec![size],
-        Shown::Cubic => vec![-size / stiffness.powi(4)],
+        Shown::Cubic => vec![-size / stiffness.powi(4), 0.0],
         Shown::Pinning { gap } => vec![size, gap, gap, 0.0, 1.0],
     }
 }
