@@ -3,6 +3,8 @@
 #[path = "fmu/host.rs"]
 mod host;
 
+#[path = "fmu/accuracy.rs"]
+mod accuracy;
 #[path = "fmu/bolts.rs"]
 mod bolts;
 #[path = "fmu/call_order.rs"]
