@@ -7,6 +7,8 @@ mod host;
 mod accuracy;
 #[path = "fmu/bolts.rs"]
 mod bolts;
+#[path = "fmu/bounds.rs"]
+mod bounds;
 #[path = "fmu/call_order.rs"]
 mod call_order;
 #[path = "fmu/call_table.rs"]
