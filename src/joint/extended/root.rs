@@ -40,7 +40,8 @@ const EVALUATIONS: usize = 400;
 
 /// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
 /// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
-/// Steps within `digit` are none; gives up beyond `farthest` from `start`.
+/// Steps within `digit` are none; gives up beyond `farthest` from `start`, and never asks `excess`
+/// more than [`EVALUATIONS`] times.
 pub(super) fn rising_root(
     start: f64,
     Scales {
@@ -164,6 +165,21 @@ mod tests {
             root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON),
             "{root:?}"
         );
+    }
+
+    /// A slope that leads astray and a value that is never near enough: a bound holds all the same.
+    #[test]
+    fn the_work_has_a_bound() {
+        let mut asked = 0;
+        let _ = rising_root(0.0, FREE, |x| {
+            asked += 1;
+            Excess {
+                value: 1e300 * (x - 1e11).signum(),
+                slope: 1e300,
+                noise: 0.0,
+            }
+        });
+        assert!(asked > 40 && asked <= EVALUATIONS, "{asked}");
     }
 
     #[test]
