@@ -41,3 +41,5 @@ mod three_host;
 mod two_calls;
 #[path = "fmu/values.rs"]
 mod values;
+#[path = "fmu/work.rs"]
+mod work;

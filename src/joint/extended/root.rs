@@ -35,13 +35,14 @@ pub(super) enum NoRoot {
 const GROWTH: f64 = 4.0;
 /// Newton steps that may fall short before the reach takes over.
 const PATIENCE: usize = 6;
-/// Evaluations before the search is given up; halving alone needs about 60.
-const EVALUATIONS: usize = 400;
+/// Trials of the slip, within a step of a joint with effects, before the search is given up;
+/// halving alone needs about 60.
+pub const MOST_TRIALS: usize = 400;
 
 /// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
 /// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
 /// Steps within `digit` are none; gives up beyond `farthest` from `start`, and never asks `excess`
-/// more than [`EVALUATIONS`] times.
+/// more than [`MOST_TRIALS`] times.
 pub(super) fn rising_root(
     start: f64,
     Scales {
@@ -54,7 +55,7 @@ pub(super) fn rising_root(
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let (mut best, mut least) = (start, f64::INFINITY);
     let mut point = start;
-    for evaluation in 0..EVALUATIONS {
+    for evaluation in 0..MOST_TRIALS {
         let here = excess(point);
         if here.value.is_nan() {
             return Err(NoRoot::NotANumber);
@@ -179,7 +180,7 @@ mod tests {
                 noise: 0.0,
             }
         });
-        assert!(asked > 40 && asked <= EVALUATIONS, "{asked}");
+        assert!(asked > 40 && asked <= MOST_TRIALS, "{asked}");
     }
 
     #[test]
