@@ -97,11 +97,12 @@ fn take(
 fn signals(code: &mut String, taken: &mut BTreeMap<u32, String>) {
     let mut variants = String::new();
     let mut table = String::new();
-    for (line, cells) in rows("signals.csv", 6) {
+    for (line, cells) in rows("signals.csv", 7) {
         let [
             reference,
             name,
             unit,
+            least,
             force_driven,
             displacement_driven,
             description,
@@ -111,6 +112,11 @@ fn signals(code: &mut String, taken: &mut BTreeMap<u32, String>) {
         };
         let reference = take(taken, &format!("signals.csv:{line}"), reference, name, 1);
         let variant = camel(name);
+        let lower = match least.parse::<f64>() {
+            Ok(least) => format!("{least:?}"),
+            Err(_) if least == "-" => "f64::NEG_INFINITY".to_owned(),
+            Err(error) => panic!("signals.csv:{line}: `{least}`: {error}"),
+        };
         let _ = writeln!(
             variants,
             "    /// {description} [{unit}].\n    {variant} = {reference},"
@@ -118,7 +124,7 @@ fn signals(code: &mut String, taken: &mut BTreeMap<u32, String>) {
         let _ = writeln!(
             table,
             "    SignalRow {{ signal: Signal::{variant}, reference: {reference}, name: {name:?}, \
-             unit: {unit:?}, force_driven: Causality::{}, displacement_driven: Causality::{}, \
+             unit: {unit:?}, lower: {lower}, force_driven: Causality::{}, displacement_driven: Causality::{}, \
              description: {description:?} }},",
             camel(force_driven),
             camel(displacement_driven)

@@ -1,14 +1,18 @@
-//! How long one step of the FMU takes at most: `cargo bench --bench real_time`, half a minute.
+//! How long one step of the FMU takes at most: `cargo bench --bench real_time`, four minutes.
 //!
-//! Ten million steps (fewer of the slower kinds) through the C boundary, each timed by itself: set the input, fmi2DoStep, get
-//! the output. By the wall clock they include whatever else the machine did meanwhile; by the
+//! Ten million steps (a million of those with every cause) through the C boundary, each timed by
+//! itself: set the input, fmi2DoStep, get the output. By the wall clock they include whatever else the machine did meanwhile; by the
 //! thread's own processor time they do not, but for interrupts. The row `timer` is what both clocks
 //! show around nothing. A number behind the command divides the count of steps.
 
+#[path = "../tests/fmu/bolts.rs"]
+#[allow(dead_code)] // those with one cause are the tests'
+mod bolts;
 #[path = "../tests/fmu/host.rs"]
 #[allow(dead_code)] // an importer's other half
 mod host;
 
+use bolts::bolt_with_all_causes;
 use host::*;
 use iwan::fmu::*;
 use iwan::joint::Drive;
@@ -131,18 +135,46 @@ fn load(i: usize) -> f64 {
     (0.5 * t.sin() + 0.5 * (6.3 * t).sin()) * (0.6 + 0.4 * (1e-4 * t).sin())
 }
 
-fn run(name: &str, json: &'static str, drive: Drive, steps: usize) {
-    let resources = Resources::new(json);
-    let unit = Unit::stepping(&resources, drive);
-    let (variables, scale) = match drive {
+/// Input and output of a drive, and the input's largest value [N or m].
+fn variables(drive: Drive) -> ((u32, u32), f64) {
+    match drive {
         Drive::Force => ((FORCE, DISPLACEMENT), 800.0),
         Drive::Displacement => ((DISPLACEMENT, FORCE), 1e-4),
-    };
+    }
+}
+
+fn run(name: &str, resources: &Resources, (drive, share): (Drive, f64), steps: usize) {
+    let unit = Unit::stepping(resources, drive);
+    let (variables, scale) = variables(drive);
     let mut durations = Clocks::new();
     let size = 1e-4;
     for i in 0..steps {
-        let value = scale * load(i);
+        let value = share * scale * load(i);
         durations.take(|| step(&unit, variables, value, i as f64 * size, size));
+    }
+    durations.tell(name);
+}
+
+/// Two turns within each step, by derivatives of the input: there, most of the way back, and on.
+fn turning(name: &str, resources: &Resources, (drive, share): (Drive, f64), steps: usize) {
+    let unit = Unit::stepping(resources, drive);
+    let (variables, scale) = variables(drive);
+    let mut durations = Clocks::new();
+    let (size, mut from) = (1e-4, 0.0);
+    for i in 0..steps {
+        let to = 0.8 * share * scale * load(i);
+        // Over the share s of the step, from + b s (1 − s)(1 − 2 s) + (to − from) s.
+        let (bend, rise) = (0.5 * share * scale, to - from);
+        let orders = [
+            (bend + rise) / size,
+            -6.0 * bend / (size * size),
+            12.0 * bend / (size * size * size),
+        ];
+        durations.take(|| {
+            derive(&unit, variables.0, orders);
+            step(&unit, variables, from, i as f64 * size, size);
+        });
+        from = to;
     }
     durations.tell(name);
 }
@@ -152,10 +184,7 @@ fn run(name: &str, json: &'static str, drive: Drive, steps: usize) {
 fn full_memory(drive: Drive, name: &str) {
     let resources = Resources::new(BOLT);
     let unit = Unit::stepping(&resources, drive);
-    let (variables, scale) = match drive {
-        Drive::Force => ((FORCE, DISPLACEMENT), 900.0),
-        Drive::Displacement => ((DISPLACEMENT, FORCE), 1e-4),
-    };
+    let (variables, scale) = variables(drive);
     let (mut within, mut beyond, mut out) = (Clocks::new(), Clocks::new(), Clocks::new());
     let mut number = 0;
     let swings = 4 * TURNING_POINTS;
@@ -194,26 +223,20 @@ fn main() {
         timer.take(|| ());
     }
     timer.tell("timer");
-    run("exact, driven in force", BOLT, Drive::Force, steps);
-    run(
-        "exact, driven in displacement",
-        BOLT,
-        Drive::Displacement,
-        steps / 4,
-    );
-    let causes = BOLT_WITH_CAUSES;
-    run(
-        "two causes, driven in force",
-        causes,
-        Drive::Force,
-        steps / 20,
-    );
-    run(
-        "two causes, driven in displacement",
-        causes,
-        Drive::Displacement,
-        steps / 20,
-    );
+    let (exact, two) = (Resources::new(BOLT), Resources::new(BOLT_WITH_CAUSES));
+    let all = bolt_with_all_causes();
+    for (drive, name) in [
+        (Drive::Force, "force"),
+        (Drive::Displacement, "displacement"),
+    ] {
+        run(&format!("exact, {name}"), &exact, (drive, 1.0), steps);
+        run(&format!("two causes, {name}"), &two, (drive, 1.0), steps);
+        // Below the force at which all of them together let the joint go.
+        let some = (drive, 0.6);
+        run(&format!("every cause, {name}"), &all, some, steps / 10);
+        let name = format!("every cause, two turns in a step, {name}");
+        turning(&name, &all, some, steps / 10);
+    }
     full_memory(Drive::Force, "force");
     full_memory(Drive::Displacement, "displacement");
 }

@@ -7,7 +7,7 @@
 #
 #   PLATFORM    linux64 (glibc 2.17 or newer), win64, aarch64-linux; by default all three
 #   --install   fetch the system's missing packages with apt-get (Debian and its kin, as root)
-#   --joint     the joint of the archive; by default the one of scripts/platforms
+#   --joint     the joint of the archive; by default the one with causes of scripts/platforms
 #   --output    the archive; by default target/platforms/joint.fmu
 #   --check     build nothing: run what was built of these sources, and for linux64 else the library
 #               that this machine uses itself; a step of the tests
@@ -50,7 +50,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$REPOSITORY"
 tools="$REPOSITORY/scripts/platforms"
 out="$REPOSITORY/target/platforms"
-joint=${joint:-"$tools/joint.json"}
+joint=${joint:-"$tools/causes.json"}
 output=${output:-"$out/joint.fmu"}
 mkdir -p "$out"
 [ "$(uname -s)-$(uname -m)" = Linux-x86_64 ] ||
@@ -215,50 +215,108 @@ find_platform() {
     fi
 }
 
-# The host of a platform, run on its library; answers go to target/platforms/PLATFORM.txt.
-run_platform() {
-    local platform=$1 host="$out/host-$1" library=${library_of[$1]} runner=() resources="$out/resources"
+# Joints without causes and with all of them, both drives, each step ending at a value or following
+# the input's derivatives: JOINT DRIVE WAY.
+cases=()
+for joint_of_case in exact causes; do
+    for drive in force displacement; do
+        for way in values slopes; do cases+=("$joint_of_case $drive $way"); done
+    done
+done
+declare -A guid_of
+declare -A reference_of=([force]=0 [displacement]=1)
+
+# Archives, resources, loads and what `iwan simulate` answers.
+prepare_cases() {
+    local name drive place
+    for drive in force displacement; do
+        rows=$("$PYTHON" "$tools/load.py" write "$drive" "$out/$drive.txt" "$out/$drive.csv")
+        for name in exact causes; do
+            place="$out/$name-$drive"
+            "$IWAN" export "$tools/$name.json" --drive "$drive" -o "$place.fmu" "$@" 2>/dev/null
+            guid_of[$name-$drive]=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$place.fmu")
+            "$IWAN" simulate "$tools/$name.json" "$out/$drive.csv" --drive "$drive" -o "$place.csv" 2>/dev/null
+            mkdir -p "$out/resources/$name"
+            cp "$tools/$name.json" "$out/resources/$name/joint.json"
+        done
+    done
+}
+
+# Sets `runner` to what runs a program of a platform, `host` to the program, and `root` to what stands
+# before a path; status 1 where this machine lacks something.
+prepare_host() {
+    local platform=$1
+    runner=() host="$out/host-$platform" root=
     case "$platform" in
     linux64)
         cc -O1 -o "$host" "$tools/host.c" -ldl
         ;;
     win64)
-        runner=("$(wine64_program)") || { ran[$platform]="not run here: wine64 is missing"; return 0; }
-        host="$host.exe"
+        runner=("$(wine64_program)") || { ran[$platform]="not run here: wine64 is missing"; return 1; }
+        host="$host.exe" root="Z:"
         x86_64-w64-mingw32-gcc -O1 -o "$host" "$tools/host.c"
         export WINEPREFIX="$out/wine" WINEDEBUG=-all DISPLAY=
-        resources="Z:$resources"
-        library="Z:$library"
         ;;
     aarch64-linux)
-        have qemu-aarch64 || { ran[$platform]="not run here: qemu-user is missing"; return 0; }
+        have qemu-aarch64 || { ran[$platform]="not run here: qemu-user is missing"; return 1; }
         [ -e /usr/aarch64-linux-gnu/lib/ld-linux-aarch64.so.1 ] ||
-            { ran[$platform]="not run here: libc6-arm64-cross is missing"; return 0; }
+            { ran[$platform]="not run here: libc6-arm64-cross is missing"; return 1; }
         runner=(qemu-aarch64 -L /usr/aarch64-linux-gnu)
         "$zig/bin/python" -m ziglang cc -target aarch64-linux-gnu.2.17 -O1 -o "$host" "$tools/host.c" -ldl
         ;;
     esac
-    if ! ${runner[@]+"${runner[@]}"} "$host" "$library" "$resources" "$guid" "$out/load.txt" "$rows" \
-        >"$out/$platform.txt" 2>"$out/$platform-run.log"; then
-        tail -3 "$out/$platform-run.log" >&2
-        ran[$platform]="FAILED, see target/platforms/$platform-run.log"
-        return 1
-    fi
-    # wine's C library ends lines as Windows does.
-    sed -i 's/\r$//' "$out/$platform.txt"
-    local found
-    if [ "$platform" = linux64 ]; then
-        found=$("$PYTHON" "$tools/load.py" against "$out/simulated.csv" "$out/$platform.txt") ||
-            { ran[$platform]="FAILED against iwan simulate: $found"; return 1; }
-        ran[$platform]="run by a host in C, against iwan simulate: $found"
-    elif [ -e "$out/linux64.txt" ]; then
-        local by=${runner[0]##*/}
-        found=$("$PYTHON" "$tools/load.py" compare "$out/linux64.txt" "$out/$platform.txt") ||
-            { ran[$platform]="FAILED under $by against linux64: $found"; return 1; }
-        ran[$platform]="run under $by, against linux64: $found"
-    else
-        ran[$platform]="run, compared with nothing: linux64 was not asked for"
-    fi
+}
+
+# The host of a platform, run on its library in every case; answers go to target/platforms/PLATFORM/.
+# linux64 is held against `iwan simulate` and, in the whole archive, fmpy; the others against linux64.
+run_platform() {
+    local platform=$1 library=${library_of[$1]} runner host root name drive way answers found by passed=0
+    prepare_host "$platform" || return 0
+    [ "$platform" = linux64 ] || [ -d "$out/answers/linux64" ] ||
+        { ran[$platform]="not run: compared with linux64, which was not asked for"; return 0; }
+    mkdir -p "$out/answers/$platform"
+    for case in "${cases[@]}"; do
+        read -r name drive way <<<"$case"
+        answers="$out/answers/$platform/$name-$drive-$way.txt"
+        if ! ${runner[@]+"${runner[@]}"} "$host" "$root$library" "$root$out/resources/$name" "${guid_of[$name-$drive]}" \
+            "${reference_of[$drive]}" "$out/$drive.txt" "$rows" "$way" >"$answers" 2>"$out/$platform-run.log"; then
+            tail -3 "$out/$platform-run.log" >&2
+            ran[$platform]="FAILED ($case), see target/platforms/$platform-run.log"
+            return 1
+        fi
+        # wine's C library ends lines as Windows does.
+        sed -i 's/\r$//' "$answers"
+        if [ "$platform" != linux64 ]; then
+            by="${runner[0]##*/}, against linux64"
+            found=$("$PYTHON" "$tools/load.py" compare "$out/answers/linux64/$name-$drive-$way.txt" "$answers")
+        elif [ "$way" = values ]; then
+            by="a host in C, against iwan simulate and fmpy"
+            found=$("$PYTHON" "$tools/load.py" against "$out/$name-$drive.csv" "$answers") && found=$(in_fmpy)
+        else
+            found=$(in_fmpy)
+        fi || { ran[$platform]="FAILED under $by ($case): $found"; return 1; }
+        passed=$((passed + 1))
+    done
+    ran[$platform]="run by $by: $passed loads of $((rows - 1)) steps, 7 signals, bit-identical"
+}
+
+# The whole archive of a case in fmpy, against the host's answers.
+in_fmpy() {
+    "$PYTHON" "$tools/in_fmpy.py" "$out/$name-$drive.fmu" "$out/$drive.txt" "$way" "$answers.fmpy" &&
+        "$PYTHON" "$tools/load.py" compare "$answers" "$answers.fmpy"
+}
+
+# The archives of all that was built, by `iwan check`, which loads them through a crate of others.
+check_archives() {
+    local name drive count=0
+    for name in exact causes; do
+        for drive in force displacement; do
+            "$IWAN" check "$out/$name-$drive.fmu" "$out/$name-$drive.csv" >"$out/check.log" 2>&1 ||
+                { checked="FAILED ($name, $drive), see target/platforms/check.log"; return 1; }
+            count=$((count + 1))
+        done
+    done
+    checked="iwan check: $count archives of ${#binaries[@]} libraries, no fault"
 }
 
 platforms=(linux64 win64 aarch64-linux)
@@ -269,36 +327,33 @@ if [ "$check" = yes ]; then
 else
     fetch_packages "${platforms[@]}"
 fi
-rm -f "$out"/*.txt
 failed=no
 binaries=()
 for platform in "${platforms[@]}"; do
     if "$prepare" "$platform"; then
-        binaries+=(--binary "$platform=${library_of[$platform]}")
+        binaries+=("--binary=$platform=${library_of[$platform]}")
     elif [[ "${built[$platform]}" == FAILED* ]]; then
         failed=yes
     fi
 done
 
+checked="not run"
 if [ ${#binaries[@]} -gt 0 ]; then
-    # The comparison has a joint of its own, whose load is known to stay below full slip.
-    "$IWAN" export "$tools/joint.json" -o "$out/compared.fmu" "${binaries[@]}" 2>/dev/null
-    guid=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$out/compared.fmu")
-    mkdir -p "$out/resources"
-    cp "$tools/joint.json" "$out/resources/joint.json"
-    rows=$("$PYTHON" "$tools/load.py" write "$out/load.txt" "$out/load.csv")
-    "$IWAN" simulate "$tools/joint.json" "$out/load.csv" -o "$out/simulated.csv" 2>/dev/null
+    rm -rf "$out/answers"
+    prepare_cases "${binaries[@]}"
     for platform in "${platforms[@]}"; do
         [[ "${built[$platform]}" != no* && "${built[$platform]}" != FAILED* ]] || continue
         run_platform "$platform" || failed=yes
     done
     "$IWAN" export "$joint" -o "$output" "${binaries[@]}" 2>/dev/null
+    check_archives || failed=yes
 fi
 
 printf '\n%-14s  %s\n' platform "what was built, and what was run"
 for platform in "${platforms[@]}"; do
     printf '%-14s  built: %s\n%-14s  %s\n' "$platform" "${built[$platform]-}" "" "${ran[$platform]-not run}"
 done
+echo "archive         $checked"
 echo "darwin64        not built here and never run: build it on a Mac and add it with --binary darwin64=FILE"
 [ ${#binaries[@]} -eq 0 ] || printf '\narchive of all that was built: %s\n' "${output#"$REPOSITORY/"}"
 [ "$failed" = no ] || exit 1

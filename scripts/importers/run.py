@@ -1,10 +1,10 @@
 """One importer over one load, in a process of its own: an importer that crashes ends only this one.
 
-    python run.py IMPORTER JOINT.fmu LOAD.npy OUT.npz
+    python run.py IMPORTER JOINT.fmu force|displacement LOAD.npy OUT.npz
 
-LOAD.npy holds a displacement [m] per communication point, STEP seconds apart. OUT.npz gets force,
-dissipation and stored energy at every point after the first, and the seconds of processor
-time that the steps took.
+LOAD.npy holds the input, a force [N] or a displacement [m], per communication point, STEP seconds
+apart. OUT.npz gets the other of the two, dissipation and stored energy at every point after the
+first, and the seconds of processor time that the steps took.
 """
 
 import sys
@@ -14,10 +14,15 @@ from pathlib import Path
 import numpy as np
 
 STEP = 1e-3
-SIGNALS = ["force", "dissipation", "stored_energy"]
+ANSWERS = {"force": "displacement", "displacement": "force"}
 
 
-def fmpy(archive: str, load: np.ndarray) -> tuple[list, float]:
+def signals(drive: str) -> list[str]:
+    """What is compared of a unit under this drive."""
+    return [ANSWERS[drive], "dissipation", "stored_energy"]
+
+
+def fmpy(archive: str, drive: str, load: np.ndarray) -> tuple[list, float]:
     """The Python API of fmpy, for either version."""
     from fmpy import extract, read_model_description
     from fmpy.fmi2 import FMU2Slave
@@ -40,16 +45,16 @@ def fmpy(archive: str, load: np.ndarray) -> tuple[list, float]:
     put, get = (unit.setFloat64, unit.getFloat64) if three else (unit.setReal, unit.getReal)
     rows, begun = [], time.process_time()
     for row, value in enumerate(load[1:]):
-        put([references["displacement"]], [value])
+        put([references[drive]], [value])
         unit.doStep(row * STEP, STEP)
-        rows.append(get([references[name] for name in SIGNALS]))
+        rows.append(get([references[name] for name in signals(drive)]))
     took = time.process_time() - begun
     unit.terminate()
     unit.freeInstance()
     return rows, took
 
 
-def libcosimpy(archive: str, load: np.ndarray) -> tuple[list, float]:
+def libcosimpy(archive: str, drive: str, load: np.ndarray) -> tuple[list, float]:
     """Open Simulation Platform's library, native, with an override of the input per step."""
     from libcosimpy.CosimEnums import CosimVariableType
     from libcosimpy.CosimExecution import CosimExecution
@@ -67,17 +72,17 @@ def libcosimpy(archive: str, load: np.ndarray) -> tuple[list, float]:
         for v in execution.slave_variables(index)
         if v.type == CosimVariableType.REAL.value
     }
-    read = [references[name] for name in SIGNALS]
+    read = [references[name] for name in signals(drive)]
     rows, begun = [], time.process_time()
     for value in load[1:]:
-        override.slave_real_values(index, [references["displacement"]], [float(value)])
+        override.slave_real_values(index, [references[drive]], [float(value)])
         if not execution.step():
             raise RuntimeError("libcosim refused a step")
         rows.append(list(observer.last_real_values(index, read)))
     return rows, time.process_time() - begun
 
 
-def ecospy(archive: str, load: np.ndarray) -> tuple[list, float]:
+def ecospy(archive: str, drive: str, load: np.ndarray) -> tuple[list, float]:
     """Ecos, native, for either version."""
     from ecospy import EcosSimulation, EcosSimulationStructure
 
@@ -87,22 +92,22 @@ def ecospy(archive: str, load: np.ndarray) -> tuple[list, float]:
             simulation.init()
             rows, begun = [], time.process_time()
             for value in load[1:]:
-                simulation.set_real("joint::displacement", float(value))
+                simulation.set_real(f"joint::{drive}", float(value))
                 simulation.step(1)
-                rows.append([simulation.get_real(f"joint::{name}") for name in SIGNALS])
+                rows.append([simulation.get_real(f"joint::{name}") for name in signals(drive)])
             took = time.process_time() - begun
             simulation.terminate()
     return rows, took
 
 
-def pathsim(archive: str, load: np.ndarray) -> tuple[list, float]:
+def pathsim(archive: str, drive: str, load: np.ndarray) -> tuple[list, float]:
     """A block in a diagram of PathSim, on fmpy's loader, for either version."""
     from pathsim import Connection, Simulation
     from pathsim.blocks import Scope, Source
     from pathsim_fmi import CoSimulationFMU
 
     unit = CoSimulationFMU(archive, dt=STEP)
-    places = [list(unit.fmu_wrapper.output_refs).index(name) for name in SIGNALS]
+    places = [list(unit.fmu_wrapper.output_refs).index(name) for name in signals(drive)]
     # The unit takes its input for the end of the step; the diagram samples at the beginning.
     source = Source(lambda t: float(load[min(round(t / STEP) + 1, len(load) - 1)]))
     scope = Scope(sampling_period=STEP)
@@ -121,8 +126,8 @@ IMPORTERS = {"fmpy": fmpy, "libcosimpy": libcosimpy, "ecospy": ecospy, "pathsim-
 
 def main() -> int:
     """Command line."""
-    importer, archive, load, out = sys.argv[1:]
-    rows, took = IMPORTERS[importer](str(Path(archive).resolve()), np.load(load))
+    importer, archive, drive, load, out = sys.argv[1:]
+    rows, took = IMPORTERS[importer](str(Path(archive).resolve()), drive, np.load(load))
     np.savez(out, rows=np.array(rows, dtype=float), seconds=took)
     return 0
 

@@ -1,11 +1,13 @@
 /* A host in miniature: runs the FMU's library of one platform and prints every answer bit by bit.
  *
- *   host LIBRARY RESOURCES GUID LOAD ROWS
+ *   host LIBRARY RESOURCES GUID INPUT LOAD ROWS values|slopes
  *
- * LIBRARY is binaries/PLATFORM/IwanJoint.*, RESOURCES the folder with joint.json as a path, LOAD a
- * text file with one sample per line: time and input as 16 hexadecimal digits each, the bits of a
- * double. Texts of numbers and the sine of a C library differ between systems; bits do not. Half-way
- * the state is saved, serialized and continued in a second instance.
+ * LIBRARY is binaries/PLATFORM/IwanJoint.*, RESOURCES the folder with joint.json as a path, INPUT the
+ * value reference of the input, LOAD a text file with one sample per line: time, input and the
+ * input's derivatives of orders 1 to 3 from there on, as 16 hexadecimal digits each, the bits of a
+ * double. Texts of numbers and the sine of a C library differ between systems; bits do not. With
+ * `values` each step ends at the next sample, with `slopes` it follows the derivatives. Half-way the
+ * state is saved, serialized and continued in a second instance.
  *
  * Output: per sample the bits of references 0 to 6. Exit status 0, or 1 with a message.
  */
@@ -29,7 +31,7 @@ static Library open_library(const char *path) { return dlopen(path, RTLD_NOW | R
 static void *function_of(Library library, const char *name) { return dlsym(library, name); }
 #endif
 
-enum { SIGNALS = 7, OK = 0, CO_SIMULATION = 1 };
+enum { SIGNALS = 7, ORDERS = 3, OK = 0, CO_SIMULATION = 1 };
 
 typedef struct {
     void (*logger)(void *, const char *, int, const char *, const char *, ...);
@@ -77,16 +79,19 @@ static void *instance(const char *name, const char *guid, const char *uri, Callb
 }
 
 int main(int count, char **arguments) {
-    if (count != 6) stop("usage:", "host LIBRARY RESOURCES GUID LOAD ROWS");
+    if (count != 8) stop("usage:", "host LIBRARY RESOURCES GUID INPUT LOAD ROWS values|slopes");
     library = open_library(arguments[1]);
     if (!library) stop("cannot load", arguments[1]);
-    FILE *load = fopen(arguments[4], "r");
-    if (!load) stop("cannot open", arguments[4]);
-    long half = strtol(arguments[5], NULL, 10) / 2;
+    const unsigned input = (unsigned)strtoul(arguments[4], NULL, 10);
+    FILE *load = fopen(arguments[5], "r");
+    if (!load) stop("cannot open", arguments[5]);
+    long half = strtol(arguments[6], NULL, 10) / 2;
+    int slopes = strcmp(arguments[7], "slopes") == 0;
 
     int (*setup)(void *, int, double, double, int, double);
     int (*enter)(void *), (*leave)(void *), (*terminate)(void *);
     int (*set)(void *, const unsigned *, size_t, const double *);
+    int (*derive)(void *, const unsigned *, size_t, const int *, const double *);
     int (*get)(void *, const unsigned *, size_t, double *);
     int (*step)(void *, double, double, int);
     int (*get_state)(void *, void **), (*set_state)(void *, void *), (*free_state)(void *, void **);
@@ -99,6 +104,7 @@ int main(int count, char **arguments) {
     *(void **)&leave = find("fmi2ExitInitializationMode");
     *(void **)&terminate = find("fmi2Terminate");
     *(void **)&set = find("fmi2SetReal");
+    *(void **)&derive = find("fmi2SetRealInputDerivatives");
     *(void **)&get = find("fmi2GetReal");
     *(void **)&step = find("fmi2DoStep");
     *(void **)&get_state = find("fmi2GetFMUstate");
@@ -115,21 +121,28 @@ int main(int count, char **arguments) {
     Callbacks callbacks = {logger, calloc, free, NULL, NULL};
     void *unit = instance("host", arguments[3], uri, &callbacks);
 
-    const unsigned all[SIGNALS] = {0, 1, 2, 3, 4, 5, 6}, input = 0;
-    char time_digits[32], input_digits[32];
-    double before = 0.0;
-    for (long row = 0; fscanf(load, "%16s %16s", time_digits, input_digits) == 2; row++) {
-        double time = number(time_digits), value = number(input_digits), answers[SIGNALS];
+    const unsigned all[SIGNALS] = {0, 1, 2, 3, 4, 5, 6}, inputs[ORDERS] = {input, input, input};
+    const int orders[ORDERS] = {1, 2, 3};
+    char digits[2 + ORDERS][32];
+    double before[2 + ORDERS];
+    for (long row = 0; fscanf(load, "%16s %16s %16s %16s %16s", digits[0], digits[1], digits[2],
+                              digits[3], digits[4]) == 2 + ORDERS;
+         row++) {
+        double now[2 + ORDERS], answers[SIGNALS];
+        for (int place = 0; place < 2 + ORDERS; place++) now[place] = number(digits[place]);
         if (row == 0) {
-            expect(setup(unit, 0, 0.0, time, 0, 0.0), "fmi2SetupExperiment");
+            expect(setup(unit, 0, 0.0, now[0], 0, 0.0), "fmi2SetupExperiment");
             expect(enter(unit), "fmi2EnterInitializationMode");
-            expect(set(unit, &input, 1, &value), "fmi2SetReal");
+            expect(set(unit, &input, 1, &now[1]), "fmi2SetReal");
             expect(leave(unit), "fmi2ExitInitializationMode");
         } else {
-            expect(set(unit, &input, 1, &value), "fmi2SetReal");
-            expect(step(unit, before, time - before, 1), "fmi2DoStep");
+            expect(set(unit, &input, 1, slopes ? &before[1] : &now[1]), "fmi2SetReal");
+            if (slopes)
+                expect(derive(unit, inputs, ORDERS, orders, &before[2]),
+                       "fmi2SetRealInputDerivatives");
+            expect(step(unit, before[0], now[0] - before[0], 1), "fmi2DoStep");
         }
-        before = time;
+        memcpy(before, now, sizeof before);
         expect(get(unit, all, SIGNALS, answers), "fmi2GetReal");
         for (int signal = 0; signal < SIGNALS; signal++) {
             uint64_t bits;

@@ -1,12 +1,13 @@
 """Writes what scripts/platforms/host.c reads, and compares what it printed.
 
-    python scripts/platforms/load.py write LOAD.txt LOAD.csv
+    python scripts/platforms/load.py write force|displacement LOAD.txt LOAD.csv
     python scripts/platforms/load.py compare REFERENCE.txt OTHER.txt
     python scripts/platforms/load.py against SIMULATED.csv OTHER.txt
 
-The load is a growing two-tone force with nested loops, in the bits of its doubles, so that no two
-systems round it differently; as a table it is for `iwan simulate`. `compare` and `against` print
-one line: identical bits, or the largest difference of any signal relative to that signal's largest
+The load is a growing two-tone force or displacement with nested loops, in the bits of its doubles,
+so that no two systems round it differently, each sample with the derivatives of the cubic through
+value and slope to the next; as a table it is for `iwan simulate`. `compare` and `against` print one
+line: identical bits, or the largest difference of any signal relative to that signal's largest
 value, and exit status 1.
 """
 
@@ -17,7 +18,7 @@ from pathlib import Path
 
 ROWS = 4001
 DURATION = 4.0
-LARGEST_FORCE = 700.0
+LARGEST = {"force": ("N", 600.0), "displacement": ("m", 8e-5)}
 SIGNALS = ["force", "displacement", "dissipation", "dissipation_rate", "stored_energy"]
 SIGNALS += ["slip_displacement", "tangent_stiffness"]
 # What `iwan simulate` writes after the time.
@@ -29,16 +30,29 @@ def bits(value: float) -> str:
     return struct.pack(">d", value).hex()
 
 
-def write(path: Path, table: Path) -> None:
+def shape(time: float) -> tuple[float, float]:
+    """Load over its largest value, and its rate."""
+    turns = 2.0 * math.pi
+    slow, fast = 2.0 * turns, 11.0 * turns
+    wave = (math.sin(slow * time) + 0.5 * math.sin(fast * time)) / 1.5
+    rate = (slow * math.cos(slow * time) + 0.5 * fast * math.cos(fast * time)) / 1.5
+    return wave * time / DURATION, rate * time / DURATION + wave / DURATION
+
+
+def write(drive: str, path: Path, table: Path) -> None:
     """Writes the load in both forms and prints its count of rows."""
-    lines, rows = [], ["time [s],force [N]"]
+    unit, largest = LARGEST[drive]
+    times = [DURATION * row / (ROWS - 1) for row in range(ROWS + 1)]
+    loads = [[largest * value for value in shape(time)] for time in times]
+    lines, rows = [], [f"time [s],{drive} [{unit}]"]
     for row in range(ROWS):
-        time = DURATION * row / (ROWS - 1)
-        turns = 2.0 * math.pi * time
-        shape = (math.sin(2.0 * turns) + 0.5 * math.sin(11.0 * turns)) / 1.5
-        force = LARGEST_FORCE * time / DURATION * shape
-        lines.append(f"{bits(time)} {bits(force)}")
-        rows.append(f"{time!r},{force!r}")
+        (here, leaving), (there, coming) = loads[row], loads[row + 1]
+        size = times[row + 1] - times[row]
+        rise = (there - here) / size
+        second = (6.0 * rise - 4.0 * leaving - 2.0 * coming) / size
+        third = (6.0 * (leaving + coming) - 12.0 * rise) / size**2
+        lines.append(" ".join(map(bits, (times[row], here, leaving, second, third))))
+        rows.append(f"{times[row]!r},{here!r}")
     path.write_text("\n".join(lines) + "\n")
     table.write_text("\n".join(rows) + "\n")
     print(ROWS)
@@ -74,7 +88,7 @@ def same(expected: list[list[float]], came: list[list[float]], signals: list[str
         print(f"{len(expected)} and {len(came)} rows instead of {ROWS}")
         return False
     if as_bits(expected) == as_bits(came):
-        print(f"bit-identical ({ROWS} steps, {len(signals)} signals)")
+        print(f"bit-identical ({ROWS - 1} steps, {len(signals)} signals)")
         return True
     largest, where = 0.0, ""
     for index, name in enumerate(signals):
@@ -92,8 +106,8 @@ def same(expected: list[list[float]], came: list[list[float]], signals: list[str
 def main() -> int:
     """Command line."""
     match sys.argv[1:]:
-        case ["write", path, table]:
-            write(Path(path), Path(table))
+        case ["write", drive, path, table]:
+            write(drive, Path(path), Path(table))
             return 0
         case ["compare", reference, other]:
             return 0 if compare(Path(reference), Path(other)) else 1

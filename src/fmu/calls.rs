@@ -67,16 +67,19 @@ impl Call {
     }
 }
 
-/// Writes one constant per row.
+/// Writes one constant per row, and for tests a list of them all.
 macro_rules! calls {
-    ($($constant:ident $name:literal [$($mode:ident)*];)*) => {
+    ($list:ident: $($constant:ident $name:literal [$($mode:ident)*];)*) => {
         $(#[doc = $name] pub const $constant: Call = Call { name: $name, allowed: &[$($mode),*] };)*
+        #[cfg(test)]
+        pub const $list: &[Call] = &[$($constant),*];
     };
 }
 
 // FMI 2.0.4, section 4.2.4, table of allowed calls. I instantiated, N initialization, S stepping,
 // T terminated, B broken. fmi2FreeInstance is allowed in all of them and answers nothing.
 calls! {
+    ALL_OF_FMI_2:
     SET_DEBUG_LOGGING "fmi2SetDebugLogging" [I N S T B];
     SETUP_EXPERIMENT "fmi2SetupExperiment" [I];
     ENTER_INITIALIZATION_MODE "fmi2EnterInitializationMode" [I];
@@ -111,6 +114,7 @@ calls! {
 
 // FMI 3.0, section 4.2, states of co-simulation without event mode: Step Mode is `stepping`.
 calls! {
+    ALL_OF_FMI_3:
     SET_DEBUG_LOGGING_3 "fmi3SetDebugLogging" [I N S T B];
     ENTER_INITIALIZATION_MODE_3 "fmi3EnterInitializationMode" [I];
     EXIT_INITIALIZATION_MODE_3 "fmi3ExitInitializationMode" [N];

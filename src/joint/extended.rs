@@ -16,6 +16,7 @@ use super::simulation::{Drive, JointError};
 pub(super) use cells::fine_cells;
 use laws::Laws;
 use ledger::{Ledger, Leg};
+pub use root::MOST_TRIALS;
 use root::{Excess, NoRoot, Scales, rising_root};
 use slopes::End;
 
@@ -54,6 +55,8 @@ pub(super) struct Extended {
     input: f64,
     /// Direction of the last step that moved.
     rising: bool,
+    /// Trials of the slip that the last step took.
+    trials: usize,
     /// A memory to try things on, and the state to go back to: places that are made once.
     scratch: Vec<f64>,
     kept: Vec<f64>,
@@ -119,6 +122,7 @@ impl Extended {
             },
             input: 0.0,
             rising: true,
+            trials: 0,
             scratch: Vec::new(),
             kept: Vec::new(),
         };
@@ -143,7 +147,7 @@ impl Extended {
             self.limit
         };
         self.network.begin(limit);
-        let slip = self.solve(step, input).map_err(|reason| {
+        let (slip, trials) = self.solve(step, input).map_err(|reason| {
             let full_slip = self.network.full_slip_force(input > 0.0);
             match reason {
                 NoRoot::OutOfReach if self.drive == Drive::Force => JointError::BeyondFullSlip {
@@ -156,7 +160,7 @@ impl Extended {
                 },
             }
         })?;
-        self.limit = limit;
+        (self.limit, self.trials) = (limit, trials);
         self.accept(time, step, input, slip);
         Ok(self.answer(input))
     }
@@ -179,7 +183,8 @@ impl Extended {
         point
     }
 
-    fn solve(&self, step: f64, input: f64) -> Result<f64, NoRoot> {
+    /// The slip that answers to the input, and how many were tried.
+    fn solve(&self, step: f64, input: f64) -> Result<(f64, usize), NoRoot> {
         let start = self.network.slip();
         let onwards = input >= self.input;
         let scales = Scales {
@@ -187,7 +192,9 @@ impl Extended {
             farthest: FARTHEST * self.reach,
             digit: 0.5 * f64::EPSILON * start.abs(),
         };
-        rising_root(start, scales, |slip| {
+        let mut trials = 0;
+        let root = rising_root(start, scales, |slip| {
+            trials += 1;
             let rising = if slip == start { onwards } else { slip > start };
             let point = self.point(slip, step, rising);
             match self.drive {
@@ -202,7 +209,8 @@ impl Extended {
                     noise: ROUNDING * (point.displacement_noise + input.abs()),
                 },
             }
-        })
+        })?;
+        Ok((root, trials))
     }
 
     fn point(&self, slip: f64, step: f64, rising: bool) -> Point {
@@ -306,6 +314,11 @@ impl Extended {
             stored_energy: self.network.stored_energy() + spring + self.ledger.stored(),
             tangent_stiffness: self.tangent,
         }
+    }
+
+    /// Trials of the slip that the last step took.
+    pub fn trials(&self) -> usize {
+        self.trials
     }
 
     /// Tangent stiffness dF/dU \[N/m\] along the last direction, rates held.

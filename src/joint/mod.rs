@@ -18,6 +18,7 @@ pub mod virgin;
 pub use density::{Density, FourParameter, PowerLaw, PowerLawTable, Sliders, SmallForce};
 pub use effect::{Acting, Effect, Place, Response, Situation, SlipLimit, Trajectory};
 pub use error::JointError;
+pub use extended::MOST_TRIALS;
 pub use memory::ExactResponse;
 pub use network::Network;
 pub use parameters::Parameter;

@@ -207,6 +207,16 @@ impl Simulation {
         Ok(output)
     }
 
+    /// How often the last step asked all sliders for their force, the greater part of its work with
+    /// effects: [`MOST_TRIALS`](crate::joint::MOST_TRIALS) at most. None without effects, where the
+    /// answer is a closed form.
+    pub fn trials(&self) -> usize {
+        match &self.response {
+            Response::Extended(extended) => extended.trials(),
+            Response::Network(_) | Response::BehindSpring(_) => 0,
+        }
+    }
+
     /// True where time matters beside the turning values: with effects.
     pub fn has_effects(&self) -> bool {
         matches!(self.response, Response::Extended(_))

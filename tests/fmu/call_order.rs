@@ -1,182 +1,90 @@
-//! Every function in every mode, against the standard's table.
+//! Every function in every mode, every pair of calls and random sequences, against the tables of both
+//! versions of the standard.
 
+use super::call_table::{Hosted, MODES};
+use super::communication::uniform;
 use super::host::*;
+use super::three_host::Three;
 use iwan::fmu::*;
 use iwan::joint::Drive;
 use std::ptr;
 
-/// A function called so that nothing but the mode could be wrong.
-type Call = fn(&Unit) -> Status;
-
-const INSTANTIATED: usize = 0;
-const INITIALIZATION: usize = 1;
-const STEPPING: usize = 2;
-
-fn unit_in(mode: usize, resources: &Resources) -> Unit {
-    match mode {
-        INSTANTIATED => Unit::instantiated(resources, Drive::Force),
-        INITIALIZATION => Unit::initializing(resources, Drive::Force),
-        STEPPING => Unit::stepping(resources, Drive::Force),
-        _ => {
-            let unit = Unit::stepping(resources, Drive::Force);
-            unit.ok(unsafe { fmi2Terminate(unit.handle) });
-            unit
-        }
-    }
-}
-
-/// FMI 2.0.4, section 4.2.4: columns instantiated, initialization, step complete, terminated (3).
-#[rustfmt::skip]
-const TABLE: &[(&str, [bool; 4], Call)] = {
-    const Y: bool = true;
-    const N: bool = false;
-    &[
-        ("fmi2SetDebugLogging", [Y, Y, Y, Y], |u| unsafe { fmi2SetDebugLogging(u.handle, TRUE, 0, ptr::null()) }),
-        ("fmi2SetupExperiment", [Y, N, N, N], |u| unsafe { fmi2SetupExperiment(u.handle, FALSE, 0.0, 0.0, FALSE, 0.0) }),
-        ("fmi2EnterInitializationMode", [Y, N, N, N], |u| unsafe { fmi2EnterInitializationMode(u.handle) }),
-        ("fmi2ExitInitializationMode", [N, Y, N, N], |u| unsafe { fmi2ExitInitializationMode(u.handle) }),
-        ("fmi2Terminate", [N, N, Y, N], |u| unsafe { fmi2Terminate(u.handle) }),
-        ("fmi2Reset", [Y, Y, Y, Y], |u| unsafe { fmi2Reset(u.handle) }),
-        ("fmi2GetReal", [N, Y, Y, Y], |u| unsafe { fmi2GetReal(u.handle, &DISPLACEMENT, 1, &mut 0.0) }),
-        ("fmi2GetInteger", [N, Y, Y, Y], |u| unsafe { fmi2GetInteger(u.handle, ptr::null(), 0, ptr::null_mut()) }),
-        ("fmi2GetBoolean", [N, Y, Y, Y], |u| unsafe { fmi2GetBoolean(u.handle, ptr::null(), 0, ptr::null_mut()) }),
-        ("fmi2GetString", [N, Y, Y, Y], |u| unsafe { fmi2GetString(u.handle, ptr::null(), 0, ptr::null_mut()) }),
-        ("fmi2SetReal", [Y, Y, Y, N], |u| unsafe { fmi2SetReal(u.handle, &FORCE, 1, &0.0) }),
-        ("fmi2SetInteger", [Y, Y, Y, N], |u| unsafe { fmi2SetInteger(u.handle, ptr::null(), 0, ptr::null()) }),
-        ("fmi2SetBoolean", [Y, Y, Y, N], |u| unsafe { fmi2SetBoolean(u.handle, ptr::null(), 0, ptr::null()) }),
-        ("fmi2SetString", [Y, Y, Y, N], |u| unsafe { fmi2SetString(u.handle, ptr::null(), 0, ptr::null()) }),
-        ("fmi2GetFMUstate", [Y, Y, Y, Y], state_round_trip),
-        ("fmi2SetRealInputDerivatives", [Y, Y, Y, N], |u| unsafe { fmi2SetRealInputDerivatives(u.handle, &FORCE, 1, &1, &0.0) }),
-        ("fmi2GetRealOutputDerivatives", [N, N, Y, Y], |u| unsafe { fmi2GetRealOutputDerivatives(u.handle, ptr::null(), 0, ptr::null(), ptr::null_mut()) }),
-        ("fmi2GetDirectionalDerivative", [N, Y, Y, Y], |u| unsafe { fmi2GetDirectionalDerivative(u.handle, &DISPLACEMENT, 1, &FORCE, 1, &1.0, &mut 0.0) }),
-        ("fmi2DoStep", [N, N, Y, N], step_on),
-        ("fmi2CancelStep", [N, N, N, N], |u| unsafe { fmi2CancelStep(u.handle) }),
-        ("fmi2GetStatus", [N, N, Y, Y], |u| unsafe { fmi2GetStatus(u.handle, 0, &mut Status::Error) }),
-        ("fmi2GetRealStatus", [N, N, Y, Y], |u| unsafe { fmi2GetRealStatus(u.handle, 2, &mut 0.0) }),
-        ("fmi2GetBooleanStatus", [N, N, Y, Y], |u| unsafe { fmi2GetBooleanStatus(u.handle, 3, &mut 7) }),
-        ("fmi2GetStringStatus", [N, N, Y, Y], |u| unsafe { fmi2GetStringStatus(u.handle, 1, &mut ptr::null()) }),
-    ]
-};
-
-/// A step from wherever the instance stands.
-fn step_on(unit: &Unit) -> Status {
-    let mut time = 0.0;
-    // Refused where no step would be allowed either.
-    let _ = unsafe { fmi2GetRealStatus(unit.handle, 2, &mut time) };
-    unit.step(time, 1e-3)
-}
-
-/// Mode after a call that was allowed.
-fn after(name: &str, mode: usize) -> usize {
-    match name {
-        "fmi2EnterInitializationMode" => INITIALIZATION,
-        "fmi2ExitInitializationMode" => STEPPING,
-        "fmi2Terminate" => 3,
-        "fmi2Reset" => INSTANTIATED,
-        _ => mode,
-    }
-}
-
-/// Makes a call and holds its answer against the table; returns the mode afterwards.
-#[track_caller]
-fn obey(unit: &Unit, mode: usize, (name, allowed, call): &(&str, [bool; 4], Call)) -> usize {
-    let status = call(unit);
-    let expected = if allowed[mode] {
-        Status::Ok
-    } else {
-        Status::Error
-    };
-    assert_eq!(
-        status,
-        expected,
-        "{name} in mode {mode}: {:?}",
-        unit.log().last()
-    );
-    if allowed[mode] {
-        after(name, mode)
-    } else {
-        mode
-    }
-}
-
 /// Every ordered pair of calls from every mode: what the first does, allowed or refused, changes
-/// what is allowed for the second exactly as the table says.
-#[test]
-fn every_pair_of_calls_from_every_mode() {
+/// what is allowed for the second exactly as the table says, and what is refused changes nothing.
+fn every_pair<U: Hosted>() {
     let resources = Resources::new(BOLT);
-    let mut pairs = 0;
-    for first in TABLE {
-        for mode in 0..4 {
-            let unit = unit_in(mode, &resources);
-            let state = unit.save();
-            for second in TABLE {
+    let table = U::table();
+    for mode in MODES {
+        let unit = U::in_mode(mode, &resources);
+        let state = unit.bytes();
+        for first in &table {
+            for second in &table {
                 // Back in the mode of the beginning; the state carries the mode.
-                unit.ok(unsafe { fmi2SetFMUstate(unit.handle, state) });
-                let between = obey(&unit, mode, first);
-                obey(&unit, between, second);
-                pairs += 1;
+                unit.restore(&state);
+                let between = unit.obey(mode, first);
+                unit.obey(between, second);
             }
-            unit.free_state(state);
         }
     }
-    assert_eq!(pairs, 4 * TABLE.len() * TABLE.len());
 }
 
-/// Long sequences in random order, on fresh instances.
-#[test]
-fn random_sequences_of_calls() {
+/// Long sequences in random order, on fresh instances with causes.
+fn random_sequences<U: Hosted>() {
     let resources = Resources::new(BOLT_WITH_CAUSES);
-    let mut random = 20260101_u64;
+    let table = U::table();
+    let mut random = 20_260_101;
+    let mut visited = [0; 4];
     for _ in 0..100 {
-        let unit = Unit::instantiated(&resources, Drive::Force);
-        let mut mode = INSTANTIATED;
+        let unit = U::instantiated(&resources);
+        let mut mode = 'I';
         for _ in 0..200 {
-            random = random
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            let place = (random >> 33) as usize % TABLE.len();
-            mode = obey(&unit, mode, &TABLE[place]);
+            let place = (uniform(&mut random) * table.len() as f64) as usize;
+            mode = unit.obey(mode, &table[place]);
+            visited[MODES.iter().position(|other| *other == mode).unwrap()] += 1;
         }
     }
+    assert!(visited.iter().all(|steps| *steps > 100), "{visited:?}");
 }
 
-/// fmi2GetFMUstate, and with its state the five functions that need one.
-fn state_round_trip(unit: &Unit) -> Status {
-    let mut state = ptr::null_mut();
-    let status = unsafe { fmi2GetFMUstate(unit.handle, &mut state) };
-    if status != Status::Ok {
-        return status;
-    }
-    let bytes = unit.serialize(state);
-    let mut copy = ptr::null_mut();
-    unit.ok(unit.deserialize(&bytes, &mut copy));
-    unit.ok(unsafe { fmi2SetFMUstate(unit.handle, copy) });
-    unit.free_state(copy);
-    unit.free_state(state);
-    Status::Ok
-}
-
-#[test]
-fn every_function_in_every_mode() {
+/// Each on an instance that came there by the calls alone, and told with its mode where refused.
+fn every_function<U: Hosted>() {
     let resources = Resources::new(BOLT);
-    for (name, allowed, call) in TABLE {
-        for (mode, allowed) in allowed.iter().enumerate() {
-            let unit = unit_in(mode, &resources);
-            let status = call(&unit);
-            if *allowed {
-                assert_eq!(
-                    status,
-                    Status::Ok,
-                    "{name} in mode {mode}: {:?}",
-                    unit.log()
-                );
-            } else {
-                let told = unit.error(status);
-                assert!(told.starts_with(&format!("{name}: expected ")), "{told}");
+    for row in U::table() {
+        for mode in MODES {
+            let unit = U::in_mode(mode, &resources);
+            unit.obey(mode, &row);
+            if !row.allowed.is_empty() && !row.allowed_in(mode) {
+                let told = unit.told().unwrap();
                 assert!(told.contains("came in mode "), "{told}");
             }
         }
     }
+}
+
+#[test]
+fn every_pair_of_calls_from_every_mode() {
+    every_pair::<Unit>();
+}
+
+#[test]
+fn every_pair_of_calls_of_fmi_3_from_every_mode() {
+    every_pair::<Three>();
+}
+
+#[test]
+fn random_sequences_of_calls() {
+    random_sequences::<Unit>();
+}
+
+#[test]
+fn random_sequences_of_calls_of_fmi_3() {
+    random_sequences::<Three>();
+}
+
+#[test]
+fn every_function_in_every_mode() {
+    every_function::<Unit>();
+    every_function::<Three>();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The answer does not depend on where the communication points lie.
 
+use super::bolts::bolts_with_one_cause;
 use super::host::*;
-use iwan::causes::{CATALOGUE, Kind, Scale};
 use iwan::fmu::*;
 use iwan::joint::Drive;
 
@@ -143,35 +143,6 @@ fn rollback_in_the_middle_of_anything_is_bit_identical() {
         straight.free_state(one);
         rolled.free_state(other);
     }
-}
-
-/// The bolt with each joint cause at the largest of its starting values, by name.
-pub fn bolts_with_one_cause() -> Vec<(&'static str, Resources)> {
-    let scale = Scale {
-        force: 600.0,
-        displacement: 7e-5,
-        velocity: 8e-3,
-        stiffness: 1.1e7,
-        dissipation: 0.1,
-        lengths: vec![0.4],
-        period: 0.02,
-        step: 1e-3,
-    };
-    let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);
-    joint_causes
-        .map(|cause| {
-            let values = cause.starts(&scale).pop().unwrap();
-            let named = cause.parameters().iter().zip(values);
-            let named: Vec<String> = named
-                .map(|(parameter, value)| format!("\"{}\": {value:e}", parameter.name))
-                .collect();
-            let (name, named) = (cause.name(), named.join(", "));
-            let acting = format!(r#""causes": [{{"name": "{name}", "parameters": {{{named}}}}}]"#);
-            let json = BOLT.replace(r#""causes": []"#, &acting);
-            // Kept as long as the program: the resources are compared with it at any time.
-            (name, Resources::new(Box::leak(json.into_boxed_str())))
-        })
-        .collect()
 }
 
 /// Steps that rounding leaves over, of 1e-17 s or of two units in the last place, in which the input

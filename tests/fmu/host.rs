@@ -275,6 +275,15 @@ impl Drop for Unit {
     }
 }
 
+/// Time derivatives of the input, orders 1 to 3, for the next step.
+pub fn derive(unit: &Unit, input: u32, [first, second, third]: [f64; 3]) {
+    let (references, orders, values) = ([input; 3], [1, 2, 3], [first, second, third]);
+    unit.ok(unsafe {
+        let (r, o, v) = (references.as_ptr(), orders.as_ptr(), values.as_ptr());
+        fmi2SetRealInputDerivatives(unit.handle, r, 3, o, v)
+    });
+}
+
 /// Forces \[N\] of a history with nested loops, below full slip, at 1 ms.
 pub fn history() -> impl Iterator<Item = (f64, f64)> {
     (0..400).map(|i| {

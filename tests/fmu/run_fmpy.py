@@ -17,6 +17,8 @@ import traceback
 from pathlib import Path
 
 import fmpy_archive
+import fmpy_capabilities
+import fmpy_dependencies
 import fmpy_hosts
 import fmpy_simulation
 import fmpy_three
@@ -115,11 +117,13 @@ def main() -> int:
             for check in fmpy_archive.CHECKS:
                 outcomes.append(passes(f"{archive.name} {check.__name__}", check, archive))
             unit = fmpy_simulation.Unit(archive, iwan)
-            for check in fmpy_simulation.checks(unit):
+            declared = [*fmpy_capabilities.CHECKS, *fmpy_dependencies.CHECKS]
+            for check in [*fmpy_simulation.checks(unit), *declared]:
                 outcomes.append(passes(f"{archive.name} {check.__name__}", check, unit))
             if three(archive).exists():
                 pair = fmpy_three.Pair(archive, three(archive), iwan)
-                for check in fmpy_three.CHECKS:
+                declared = [*fmpy_capabilities.CHECKS_OF_3, *fmpy_dependencies.CHECKS_OF_3]
+                for check in [*fmpy_three.CHECKS, *declared]:
                     outcomes.append(passes(f"{pair.archive.name} {check.__name__}", check, pair))
         made = [archive for archive in archives if archive.is_relative_to(folder)]
         for check in fmpy_hosts.CHECKS if made else []:

@@ -189,65 +189,6 @@ fn input_derivatives_find_the_turning_values_inside_a_step() {
     assert!(close(unit.get(&[DISPLACEMENT])[0], expected.displacement));
 }
 
-/// Value and slope at successive points, as a host with states knows them: the cubic through them is
-/// handed over as its derivatives. At 100 points per cycle the dissipation of a sine is met to 2e-7,
-/// where the points alone miss the turning values by chance and lose up to 1e-3.
-#[test]
-fn slopes_at_a_hundred_points_per_cycle_give_the_dissipation_to_2e_7() {
-    const AMPLITUDE: f64 = 500.0;
-    let resources = Resources::new(BOLT);
-    let omega = std::f64::consts::TAU;
-    let force = |t: f64| AMPLITUDE * (omega * t).sin();
-    let rate = |t: f64| AMPLITUDE * omega * (omega * t).cos();
-    let step = 0.01;
-    for phase in [0.0, 0.21, 0.5, 0.77] {
-        let (slopes, points) = (
-            Unit::stepping(&resources, Drive::Force),
-            Unit::stepping(&resources, Drive::Force),
-        );
-        let mut exact = Simulation::new(&resources.joint(), Drive::Force).unwrap();
-        exact.step(0.0, 0.0).unwrap();
-        // From rest to the first point, then five cycles whose points lie anywhere in them.
-        let first = phase * step;
-        let times: Vec<f64> = (0..=500).map(|i| first + f64::from(i) * step).collect();
-        for unit in [&slopes, &points] {
-            unit.ok(unit.set(FORCE, force(first)));
-            unit.ok(unit.step(0.0, first));
-        }
-        let mut turn = 0.25;
-        for pair in times.windows(2) {
-            let (from, to) = (pair[0], pair[1]);
-            let size = to - from;
-            let rise = (force(to) - force(from)) / size;
-            let orders = [1, 2, 3];
-            let values = [
-                rate(from),
-                (6.0 * rise - 4.0 * rate(from) - 2.0 * rate(to)) / size,
-                (6.0 * (rate(from) + rate(to)) - 12.0 * rise) / (size * size),
-            ];
-            slopes.ok(slopes.set(FORCE, force(from)));
-            slopes.ok(unsafe {
-                let (r, o, v) = ([FORCE; 3], orders.as_ptr(), values.as_ptr());
-                fmi2SetRealInputDerivatives(slopes.handle, r.as_ptr(), 3, o, v)
-            });
-            slopes.ok(slopes.step(from, size));
-            points.ok(points.set(FORCE, force(to)));
-            points.ok(points.step(from, size));
-            while turn <= to {
-                exact.step(turn, force(turn)).unwrap();
-                turn += 0.5;
-            }
-            exact.step(to, force(to)).unwrap();
-        }
-        let expected = exact.output().dissipation;
-        let apart = |unit: &Unit| (unit.get(&[DISSIPATION])[0] / expected - 1.0).abs();
-        assert!(apart(&slopes) <= 2e-7, "phase {phase}: {}", apart(&slopes));
-        if phase == 0.5 {
-            assert!(apart(&points) > 5e-4, "phase {phase}: {}", apart(&points));
-        }
-    }
-}
-
 #[test]
 fn wrong_derivatives_are_refused() {
     let resources = Resources::new(BOLT);
@@ -297,14 +238,6 @@ fn reset_starts_anew_from_any_mode() {
     unit.ok(unsafe { fmi2Reset(unit.handle) });
     start(&unit);
     assert_eq!(run(&unit), first);
-}
-
-fn derive(unit: &Unit, input: u32, [first, second, third]: [f64; 3]) {
-    let (references, orders, values) = ([input; 3], [1, 2, 3], [first, second, third]);
-    unit.ok(unsafe {
-        let (r, o, v) = (references.as_ptr(), orders.as_ptr(), values.as_ptr());
-        fmi2SetRealInputDerivatives(unit.handle, r, 3, o, v)
-    });
 }
 
 /// A turn within a step that rounding makes none: what is lost in no time has no power.

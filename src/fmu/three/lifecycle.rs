@@ -56,8 +56,8 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     logging_on: Boolean3,
     event_mode_used: Boolean3,
     _early_return_allowed: Boolean3,
-    _required_intermediate_variables: *const u32,
-    _required_count: size_t,
+    required_intermediate_variables: *const u32,
+    required_count: size_t,
     environment: *mut c_void,
     log_message: Option<LogMessage>,
     _intermediate_update: *const c_void,
@@ -73,6 +73,8 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
                 capability: "hasEventMode",
             });
         }
+        let required = "requiredIntermediateVariables";
+        pointers::slice(required, required_intermediate_variables, required_count)?;
         let argument = standard.resources();
         if resource_path.is_null() {
             return Err(Refusal::NoLocation { argument });

@@ -35,11 +35,15 @@ const GAUSS: [f64; 8] = [
 ];
 /// Depth of halving: resolves a jump to 2⁻⁴⁰ of the interval.
 const DEPTH: usize = 40;
+/// Intervals after which no more are halved: a kink takes some 80, so that a law with a dozen of
+/// them does not come near, and the work of a step has a bound whatever the law.
+const INTERVALS: usize = 1000;
 /// Accepted error, relative to the largest value times the length.
 const ACCURACY: f64 = 1e-13;
 
 /// `∫_from^to law dx` by adaptive Gauss–Kronrod quadrature. `law` rises (or stays), as every
-/// stable law does.
+/// stable law does; it is asked at most 15 (INTERVALS + DEPTH) + 2 times. Two equal jumps that mirror
+/// each other could hide from the rule's own error; no law has two.
 pub(super) fn integral(from: f64, to: f64, law: impl Fn(f64) -> f64) -> f64 {
     if from == to {
         return 0.0;
@@ -49,10 +53,17 @@ pub(super) fn integral(from: f64, to: f64, law: impl Fn(f64) -> f64) -> f64 {
         return left * (to - from); // a rising law between equal values is constant
     }
     let tolerance = ACCURACY * left.abs().max(right.abs()) * (to - from).abs();
-    halved(from, to, &law, tolerance, DEPTH)
+    let mut left = INTERVALS;
+    halved((from, to), &law, tolerance, DEPTH, &mut left)
 }
 
-fn halved(from: f64, to: f64, law: &impl Fn(f64) -> f64, tolerance: f64, depth: usize) -> f64 {
+fn halved(
+    (from, to): (f64, f64),
+    law: &impl Fn(f64) -> f64,
+    tolerance: f64,
+    depth: usize,
+    left: &mut usize,
+) -> f64 {
     let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
     let (mut coarse, mut fine) = (0.0, 0.0);
     for ((node, kronrod), gauss) in NODES.iter().zip(KRONROD).zip(GAUSS) {
@@ -65,16 +76,19 @@ fn halved(from: f64, to: f64, law: &impl Fn(f64) -> f64, tolerance: f64, depth: 
     }
     (coarse, fine) = (half * coarse, half * fine);
     // The difference is the error of the coarse rule; the fine one is far better where smooth.
-    if depth == 0 || (fine - coarse).abs() <= 1e3 * tolerance || centre == from || centre == to {
+    let close = (fine - coarse).abs() <= 1e3 * tolerance;
+    *left = left.saturating_sub(1);
+    if close || depth == 0 || *left == 0 || centre == from || centre == to {
         return fine;
     }
-    halved(from, centre, law, 0.5 * tolerance, depth - 1)
-        + halved(centre, to, law, 0.5 * tolerance, depth - 1)
+    halved((from, centre), law, 0.5 * tolerance, depth - 1, left)
+        + halved((centre, to), law, 0.5 * tolerance, depth - 1, left)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::integral;
+    use super::{DEPTH, INTERVALS, integral};
+    use std::cell::Cell;
 
     #[test]
     fn kinks_jumps_and_cubics() {
@@ -87,5 +101,29 @@ mod tests {
         let exact = 0.05 * ((2.0_f64 / 0.05).cosh().ln() - (0.3_f64 / 0.05).cosh().ln());
         assert!((tanh - exact).abs() < 1e-12, "{tanh} {exact}");
         assert_eq!(integral(1.0, 1.0, |x| x), 0.0);
+    }
+
+    /// How often a law of so many growing jumps is asked, and its integral.
+    fn asked(jumps: f64) -> (usize, f64) {
+        let count = Cell::new(0);
+        let stairs = |x: f64| {
+            count.set(count.get() + 1);
+            ((jumps * x).floor() / jumps).powi(2)
+        };
+        let area = integral(0.0, 1.0, stairs);
+        (count.get(), area)
+    }
+
+    #[test]
+    fn the_work_has_a_bound_that_a_dozen_jumps_do_not_touch() {
+        let most = 15 * (INTERVALS + DEPTH) + 2;
+        let (few, area) = asked(11.3);
+        assert!(few < most - 15 * DEPTH, "{few} of {most}");
+        let squares: f64 = (0..11).map(|k| f64::from(k * k)).sum();
+        let exact = (squares + 0.3 * 11.0 * 11.0) / 11.3_f64.powi(3);
+        assert!((area - exact).abs() < 1e-10, "{area} {exact}");
+        let (many, area) = asked(1e5);
+        assert!(many <= most && many > most / 2, "{many}");
+        assert!((area - 1.0 / 3.0).abs() < 1e-4, "{area}");
     }
 }

@@ -35,12 +35,14 @@ pub(super) enum NoRoot {
 const GROWTH: f64 = 4.0;
 /// Newton steps that may fall short before the reach takes over.
 const PATIENCE: usize = 6;
-/// Evaluations before the search is given up; halving alone needs about 60.
-const EVALUATIONS: usize = 400;
+/// Trials of the slip, within a step of a joint with effects, before the search is given up;
+/// halving alone needs about 60.
+pub const MOST_TRIALS: usize = 400;
 
 /// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
 /// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
-/// Steps within `digit` are none; gives up beyond `farthest` from `start`.
+/// Steps within `digit` are none; gives up beyond `farthest` from `start`, and never asks `excess`
+/// more than [`MOST_TRIALS`] times.
 pub(super) fn rising_root(
     start: f64,
     Scales {
@@ -53,7 +55,7 @@ pub(super) fn rising_root(
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let (mut best, mut least) = (start, f64::INFINITY);
     let mut point = start;
-    for evaluation in 0..EVALUATIONS {
+    for evaluation in 0..MOST_TRIALS {
         let here = excess(point);
         if here.value.is_nan() {
             return Err(NoRoot::NotANumber);
@@ -164,6 +166,21 @@ mod tests {
             root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON),
             "{root:?}"
         );
+    }
+
+    /// A slope that leads astray and a value that is never near enough: a bound holds all the same.
+    #[test]
+    fn the_work_has_a_bound() {
+        let mut asked = 0;
+        let _ = rising_root(0.0, FREE, |x| {
+            asked += 1;
+            Excess {
+                value: 1e300 * (x - 1e11).signum(),
+                slope: 1e300,
+                noise: 0.0,
+            }
+        });
+        assert!(asked > 40 && asked <= MOST_TRIALS, "{asked}");
     }
 
     #[test]

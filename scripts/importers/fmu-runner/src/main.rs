@@ -1,10 +1,10 @@
-//! One FMI 2.0 archive driven in displacement, in the `fmu-runner` crate.
+//! One FMI 2.0 archive in the `fmu-runner` crate.
 //!
-//!     run-in-fmu-runner JOINT.fmu LOAD.txt STEP OUT.txt
+//!     run-in-fmu-runner JOINT.fmu force|displacement LOAD.txt STEP OUT.txt
 //!
-//! LOAD.txt holds a displacement \[m\] per communication point, STEP seconds apart. OUT.txt gets force,
-//! dissipation and stored energy at every point after the first; the standard output the seconds
-//! of processor time that the steps took. Where the unit has saved states, its state is serialized halfway, a step the
+//! LOAD.txt holds the input, a force \[N\] or a displacement \[m\], per communication point, STEP seconds
+//! apart. OUT.txt gets the other of the two, dissipation and stored energy at every point after the
+//! first; the standard output the seconds of processor time that the steps took. Where the unit has saved states, its state is serialized halfway, a step the
 //! other way is taken and the state is put back: the second half comes from a restored state.
 
 use fmu_runner::{Fmu, FmuInstance, fmi2Type};
@@ -12,12 +12,16 @@ use std::collections::HashMap;
 use std::error::Error;
 use std::fmt::Write;
 
-const SIGNALS: [&str; 3] = ["force", "dissipation", "stored_energy"];
-
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [archive, load, step, out] = arguments.as_slice() else {
-        return Err("usage: run-in-fmu-runner JOINT.fmu LOAD.txt STEP OUT.txt".into());
+    let [archive, drive, load, step, out] = arguments.as_slice() else {
+        return Err(
+            "usage: run-in-fmu-runner JOINT.fmu force|displacement LOAD.txt STEP OUT.txt".into(),
+        );
+    };
+    let answer = match drive.as_str() {
+        "force" => "displacement",
+        _ => "force",
     };
     let step: f64 = step.parse()?;
     let load = std::fs::read_to_string(load)?;
@@ -28,8 +32,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let library = Fmu::unpack(archive)?.load(fmi2Type::fmi2CoSimulation)?;
     let unit = FmuInstance::instantiate(&library, false)?;
     let variables = unit.lib.variables();
-    let input = &variables["displacement"];
-    let signals = SIGNALS.map(|name| &variables[name]);
+    let input = &variables[drive];
+    let signals = [answer, "dissipation", "stored_energy"].map(|name| &variables[name]);
     unit.setup_experiment(0.0, None, None)?;
     unit.enter_initialization_mode()?;
     unit.exit_initialization_mode()?;
