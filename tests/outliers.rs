@@ -85,25 +85,6 @@ fn the_knee_behind_a_turn_is_no_spark() {
     assert_eq!(found, [5511]);
 }
 
-/// A spike at every turn of a triangle that grows from cycle to cycle: no two of them at one level.
-#[test]
-fn what_comes_back_at_every_turn_is_no_spark() {
-    let half = |i: i32| f64::from((i % 80 - 40).abs() - 20);
-    let drive: Vec<f64> = (0..2000)
-        .map(|i| half(i) * (1.0 + 0.2 * f64::from(i / 80)))
-        .collect();
-    let mut random = ChaCha8Rng::seed_from_u64(5);
-    let mut residual: Vec<f64> = (0..2000).map(|_| normal(&mut random)).collect();
-    (1..25).for_each(|cycle| residual[80 * cycle + 1] += 40.0);
-    let sparks = [411, 1060, 1740];
-    sparks.iter().for_each(|&i| residual[i] += 40.0);
-    let left: Vec<usize> = scattered(outliers(&residual, Neighbours::Level), &drive)
-        .iter()
-        .map(|o| o.0)
-        .collect();
-    assert_eq!(left, sparks);
-}
-
 /// What was written over a sample that was struck out does not matter, to it or to its neighbours, in
 /// noise that is whitened.
 #[test]

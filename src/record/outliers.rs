@@ -1,6 +1,6 @@
 //! Samples that stand alone: a digit lost on the way, a spark in the cable, a jolt of the drive.
 
-use super::cycles::{span, turning_points};
+use super::cycles::span;
 
 /// What the neighbours on one side say of a sample: their mean, or the line through them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,33 +36,13 @@ const AROUND: usize = 12;
 /// Levels of the drive that are told apart, each on its way up and on its way down.
 const LEVELS: usize = 20;
 
-/// Parts of a stroke that are told apart, each on its way up and on its way down.
-const PARTS: usize = 10;
-
-/// Wiggles below this share of the drive's range are no strokes.
-const BAND: f64 = 0.005;
-
-/// How many at one level and way, or in one part of the strokes, and how many times more often than elsewhere, tell that they are no
+/// How many at one level and way, and how many times more often than elsewhere, tell that they are no
 /// sparks.
 const GATHERED: f64 = 4.0;
 
-/// Those that gather neither at one level of the drive on one way through it nor at one part of its
-/// strokes: a spark knows nothing of the drive, while a contact that closes or a sensor at the end of its
-/// range shows there in every cycle, and what turns shows at every turn.
+/// Those that do not gather at one level of the drive on one way through it: a spark knows nothing of the
+/// drive, while a contact that closes or a sensor at the end of its range shows there in every cycle.
 pub fn scattered(found: Vec<(usize, f64)>, drive: &[f64]) -> Vec<(usize, f64)> {
-    let (by_level, by_stroke) = (levels(drive), parts(drive));
-    let gathers = [
-        gathering(&found, &by_level, 2 * LEVELS),
-        gathering(&found, &by_stroke, 2 * PARTS),
-    ];
-    let kept = found
-        .iter()
-        .filter(|(i, _)| !gathers[0][by_level[*i]] && !gathers[1][by_stroke[*i]]);
-    kept.copied().collect()
-}
-
-/// Level of the drive at each sample, told apart on its way up and on its way down.
-fn levels(drive: &[f64]) -> Vec<usize> {
     let lowest = drive.iter().copied().fold(f64::INFINITY, f64::min);
     let level = LEVELS as f64 / span(drive).max(f64::MIN_POSITIVE);
     let stage = |i: usize| {
@@ -70,37 +50,17 @@ fn levels(drive: &[f64]) -> Vec<usize> {
         let at = ((drive[i] - lowest) * level) as usize;
         2 * at.min(LEVELS - 1) + usize::from(drive[after] > drive[before])
     };
-    (0..drive.len()).map(stage).collect()
-}
-
-/// Part of the stroke that each sample lies in: where one stroke ends, the next begins.
-fn parts(drive: &[f64]) -> Vec<usize> {
-    let mut parts = vec![0; drive.len()];
-    for ends in turning_points(drive, BAND).windows(2) {
-        let (from, to) = (ends[0], ends[1]);
-        let begins = match drive[to] > drive[from] {
-            true => 0,
-            false => PARTS,
-        };
-        let long = (to - from).max(1);
-        for (after, part) in parts[from..=to].iter_mut().enumerate() {
-            *part = (begins + (PARTS * after + long / 2) / long) % (2 * PARTS);
-        }
-    }
-    parts
-}
-
-/// For every stage, whether more of those found lie there than chance would bring.
-fn gathering(found: &[(usize, f64)], stages: &[usize], count: usize) -> Vec<bool> {
-    let (mut room, mut here) = (vec![0.0; count], vec![0.0; count]);
-    stages.iter().for_each(|&stage| room[stage] += 1.0);
-    found.iter().for_each(|(i, _)| here[stages[*i]] += 1.0);
-    let gathered = |(here, room): (&f64, &f64)| {
-        let elsewhere = found.len() as f64 - here + 1.0;
-        let expected = elsewhere * room / (stages.len() as f64 - room).max(1.0);
-        *here >= GATHERED && *here > GATHERED * expected
+    let mut room = [0.0; 2 * LEVELS];
+    (0..drive.len()).for_each(|i| room[stage(i)] += 1.0);
+    let mut here = [0.0; 2 * LEVELS];
+    found.iter().for_each(|(i, _)| here[stage(*i)] += 1.0);
+    let gathered = |stage: usize| {
+        let elsewhere = found.len() as f64 - here[stage] + 1.0;
+        let expected = elsewhere * room[stage] / (drive.len() as f64 - room[stage]).max(1.0);
+        here[stage] >= GATHERED && here[stage] > GATHERED * expected
     };
-    here.iter().zip(&room).map(gathered).collect()
+    let kept = found.iter().filter(|(i, _)| !gathered(stage(*i)));
+    kept.copied().collect()
 }
 
 /// Samples that both sides foretell to lie elsewhere, in the same direction, by more than
