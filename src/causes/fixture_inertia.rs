@@ -121,7 +121,10 @@ impl Cause for FixtureInertia {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let acceleration = scale.velocity * scale.velocity / scale.displacement;
-        vec![vec![0.002 * scale.force / acceleration]]
+        [0.002, 0.03]
+            .iter()
+            .map(|share| vec![share * scale.force / acceleration])
+            .collect()
     }
 }
 
