@@ -105,10 +105,13 @@ const MANY: usize = 60_000;
 /// less is the least bad of wrong explanations.
 const TAKES: f64 = 0.25;
 
-/// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit.
+/// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
+/// structure in it: without, the noise is larger than it was taken for.
 fn sober(bench: &Bench, found: Found) -> Found {
     let beyond = found.baseline.misfit - bench.train.rows() as f64;
-    if found.baseline.misfit - found.best.misfit < TAKES * beyond {
+    let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
+    let left = || structure(&bench.train, &found.best.predict(&bench.train));
+    if takes_little && left().is_seen() {
         return Found {
             best: found.baseline.clone(),
             rivals: Vec::new(),

@@ -19,6 +19,19 @@ pub struct Structure {
     pub places: Vec<Place>,
 }
 
+impl Structure {
+    /// True where bins stand out by more than noise explains, or neighbours go together.
+    pub fn is_seen(&self) -> bool {
+        self.significance > SEEN || self.correlation > RANDOM
+    }
+}
+
+/// Standard deviations of the bins' means below which nothing is seen in them.
+const SEEN: f64 = 2.0;
+
+/// Correlation of neighbours below which a whitened residual is as random as noise.
+const RANDOM: f64 = 0.1;
+
 /// One bin that stands out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {

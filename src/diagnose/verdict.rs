@@ -8,12 +8,6 @@ use super::structure::Structure;
 /// what it was taken for.
 const STRUCTURED: f64 = 6.0;
 
-/// Correlation of neighbours below which a whitened residual is as random as noise.
-const RANDOM: f64 = 0.1;
-
-/// Standard deviations of the bins' means below which nothing is seen in them.
-const SEEN: f64 = 2.0;
-
 /// Structure, as a share of the noise variance, below which it is no concern: a tenth of the
 /// noise in rms is 0.01.
 pub const NEGLIGIBLE: f64 = 0.02;
@@ -42,8 +36,7 @@ pub fn verdict(
     let left = after.significance > STRUCTURED && after.share > NEGLIGIBLE;
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too, unless what
     // is left is as random as noise: noise that grows with the load is.
-    let random = after.correlation < RANDOM && after.significance < SEEN;
-    let over = most.is_some_and(|most| chi > most) && !random;
+    let over = most.is_some_and(|most| chi > most) && after.is_seen();
     match (named, left || over) {
         (None, false) => Verdict::Clean,
         (None, true) => Verdict::Unexplained,
