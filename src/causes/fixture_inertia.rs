@@ -121,10 +121,7 @@ impl Cause for FixtureInertia {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let acceleration = scale.velocity * scale.velocity / scale.displacement;
-        [0.002, 0.03]
-            .iter()
-            .map(|share| vec![share * scale.force / acceleration])
-            .collect()
+        vec![vec![0.002 * scale.force / acceleration]]
     }
 }
 

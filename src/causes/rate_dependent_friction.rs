@@ -15,7 +15,7 @@ static PARAMETERS: [Parameter; 2] = [
         symbol: "a",
         unit: "1",
         lower: 0.0,
-        upper: 1.0,
+        upper: 10.0,
         vanishes_at: Some(0.0),
         neutral: None,
         meaning: "relative growth of the break-free forces per e-fold of the slip rate",
