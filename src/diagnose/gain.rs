@@ -65,13 +65,12 @@ pub fn stretches(bench: &Bench) -> Vec<Vec<(f64, f64)>> {
 /// Squared errors in each held-out cycle (or run of samples without cycles), and their count.
 fn blocks(bench: &Bench, predictions: &[Prediction]) -> Vec<(f64, f64)> {
     let mut blocks = Vec::new();
-    for (k, held) in bench.held.iter().enumerate() {
+    for (k, prediction) in predictions.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
-        let unseen = |i: &usize| held[*i] && bench.whole.records[k].counts(*i);
         for pair in edges(input).windows(2) {
             let (mut square, mut count) = (0.0, 0.0);
-            for i in (pair[0]..pair[1]).filter(unseen) {
-                square += (judged[i] - predictions[k].judged[i]).powi(2);
+            for i in (pair[0]..pair[1]).filter(|&i| bench.is_unseen(k, i)) {
+                square += (judged[i] - prediction.judged[i]).powi(2);
                 count += 1.0;
             }
             if count > 0.0 {
@@ -90,8 +89,7 @@ pub fn errors(bench: &Bench, predictions: &[Prediction]) -> Errors {
     for (k, held) in bench.held.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
         let predicted = &predictions[k].judged;
-        let seen = |i: &usize| !held[*i] && bench.whole.records[k].counts(*i);
-        for i in (0..held.len()).filter(seen) {
+        for i in (0..held.len()).filter(|&i| bench.train.records[k].counts(i)) {
             fitted.0 += (judged[i] - predicted[i]).powi(2);
             fitted.1 += 1.0;
         }

@@ -123,6 +123,11 @@ pub fn prepare(records: &[Record]) -> Bench {
 }
 
 impl Bench {
+    /// True for a sample that no fit has seen and that is a witness.
+    pub fn is_unseen(&self, record: usize, sample: usize) -> bool {
+        self.held[record][sample] && self.whole.records[record].counts(sample)
+    }
+
     /// True where repeated cycles gave the noise of every record.
     pub fn noise_is_repeated(&self) -> bool {
         self.noise.iter().all(|n| n.repeated)

@@ -71,10 +71,9 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         for (from, to, phases) in pieces(input) {
             let mut own = vec![Bin::new(k, from, to); phases];
             for (start, end) in cuts(input, from, to) {
-                let witnesses = (start..end).filter(|&i| record.counts(i));
-                for (i, value) in witnesses.map(|i| (i - start, white[i])) {
-                    let phase = i * phases / (end - start).max(1);
-                    own[phase.min(phases - 1)].add(value);
+                for i in (start..end).filter(|&i| record.counts(i)) {
+                    let phase = (i - start) * phases / (end - start).max(1);
+                    own[phase.min(phases - 1)].add(white[i]);
                 }
             }
             bins.append(&mut own);

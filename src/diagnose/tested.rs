@@ -71,8 +71,7 @@ fn each_unseen(bench: &Bench, mut each: impl FnMut(usize, usize, f64, f64)) {
         let (_, judged) = bench.whole.channels(k);
         let noise = &bench.noise[k];
         let weight = independence(noise.autoregression) / noise.deviation.powi(2);
-        let unseen = |i: &usize| held[*i] && bench.whole.records[k].counts(*i);
-        for i in (0..held.len()).filter(unseen) {
+        for i in (0..held.len()).filter(|&i| bench.is_unseen(k, i)) {
             each(k, i, judged[i], weight);
         }
     }

@@ -96,12 +96,36 @@ pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
 pub fn without(problem: &Problem, fit: &Fit, place: usize) -> Fit {
     let mut less = fit.clone();
     less.effects.remove(place);
-    let acting = less.acting();
-    let predictions = problem.predict(&less.coefficients, &acting);
-    less.coefficients = projected(problem, &less.coefficients, &acting, &predictions);
-    let predictions = problem.predict(&less.coefficients, &acting);
-    (less.misfit, less.offsets) = problem.misfit(&predictions);
-    less
+    let Suited {
+        coefficients,
+        misfit,
+        offsets,
+    } = suited(problem, &less.coefficients, &less.acting());
+    Fit {
+        coefficients,
+        misfit,
+        offsets,
+        ..less
+    }
+}
+
+/// A dictionary that suits some effects, and what it leaves.
+pub(super) struct Suited {
+    pub coefficients: Vec<f64>,
+    pub misfit: f64,
+    pub offsets: Vec<f64>,
+}
+
+/// The dictionary refitted, from the given coefficients, beside effects that stay as they are.
+pub(super) fn suited(problem: &Problem, coefficients: &[f64], effects: &[Acting]) -> Suited {
+    let at = problem.predict(coefficients, effects);
+    let coefficients = projected(problem, coefficients, effects, &at);
+    let (misfit, offsets) = problem.misfit(&problem.predict(&coefficients, effects));
+    Suited {
+        coefficients,
+        misfit,
+        offsets,
+    }
 }
 
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.

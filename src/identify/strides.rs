@@ -1,7 +1,7 @@
 //! Search along a value that the answer follows in small jumps: between them there is no slope that
 //! would lead on.
 
-use super::fit::{Fit, projected};
+use super::fit::{Fit, Suited, suited};
 use super::problem::Problem;
 use super::series;
 
@@ -55,9 +55,11 @@ fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> F
     let parameter = &effects[e].effect.parameters()[p];
     let value = &mut effects[e].values[p];
     *value = (*value * factor).clamp(parameter.lower, parameter.upper);
-    let at = problem.predict(&fit.coefficients, &effects);
-    let coefficients = projected(problem, &fit.coefficients, &effects, &at);
-    let (misfit, offsets) = problem.misfit(&problem.predict(&coefficients, &effects));
+    let Suited {
+        coefficients,
+        misfit,
+        offsets,
+    } = suited(problem, &fit.coefficients, &effects);
     Fit {
         coefficients,
         offsets,
