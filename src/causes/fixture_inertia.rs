@@ -1,6 +1,6 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
-use super::sensor_delay::displacement_at;
+use super::sensor_delay::Course;
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{sin, square};
@@ -47,6 +47,8 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
     } else {
         1.0
     };
+    let course = Course::of(truth);
+    let mut places = [0; 5];
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
@@ -55,9 +57,13 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
             let middle = time[sample]
                 .max(time[0] + 2.0 * reach)
                 .min(time[count - 1] - 2.0 * reach);
-            let at = |shift| displacement_at(truth, middle + shift);
-            let second = |reach: f64| (at(reach) - 2.0 * at(0.0) + at(-reach)) / (reach * reach);
-            made_good * (4.0 * second(reach) - second(2.0 * reach)) / 3.0
+            let mut at =
+                |shift: f64, place: usize| course.at(middle + shift * reach, &mut places[place]);
+            let [earliest, earlier, now, later, latest] =
+                [at(-2.0, 0), at(-1.0, 1), at(0.0, 2), at(1.0, 3), at(2.0, 4)];
+            let near = (later - 2.0 * now + earlier) / square(reach);
+            let far = (latest - 2.0 * now + earliest) / square(2.0 * reach);
+            made_good * (4.0 * near - far) / 3.0
         })
         .collect()
 }

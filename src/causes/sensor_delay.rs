@@ -18,56 +18,57 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "time by which the displacement channel lags the force channel",
 }];
 
-/// Samples by which the place of a time among even ones may be wrong before it is searched for.
-const NEAR: usize = 4;
-
-/// Count of samples that are no later than `time`.
-fn first_after(samples: &[f64], time: f64) -> usize {
-    let (Some(&first), Some(&last)) = (samples.first(), samples.last()) else {
-        return 0;
-    };
-    // Most records are sampled evenly: then the place is known, and no search is needed.
-    let even = (time - first) / (last - first) * (samples.len() - 1) as f64;
-    let low = (even.max(0.0) as usize).saturating_sub(NEAR);
-    let high = (low + 2 * NEAR).min(samples.len());
-    let near = samples.get(low..high).unwrap_or_default();
-    let place = low + near.iter().take_while(|sample| **sample <= time).count();
-    let inside = (place > low || low == 0) && (place < high || high == samples.len());
-    match inside && !near.is_empty() {
-        true => place,
-        false => samples.partition_point(|&sample| sample <= time),
-    }
+/// U by cubic pieces through the samples with slopes of their neighbours; before the record the joint
+/// was at rest, after it the last piece goes straight on.
+pub(super) struct Course<'a> {
+    time: &'a [f64],
+    displacement: &'a [f64],
+    slopes: Vec<f64>,
 }
 
-/// U at `time` by cubic pieces through the samples with slopes of their neighbours; before the
-/// record the joint was at rest, after it the last piece goes straight on.
-pub(super) fn displacement_at(truth: &Trajectory, time: f64) -> f64 {
-    let (t, u) = (&truth.time, &truth.displacement);
-    let last = t.len() - 1;
-    let after = first_after(t, time);
-    if after == 0 {
-        return u[0];
-    }
-    let slope = |i: usize| {
-        let (low, high) = (i.saturating_sub(1), (i + 1).min(last));
-        let length = t[high] - t[low];
-        if length > 0.0 {
-            (u[high] - u[low]) / length
-        } else {
-            0.0
+impl<'a> Course<'a> {
+    /// Through the samples of a trajectory.
+    pub(super) fn of(truth: &'a Trajectory) -> Course<'a> {
+        let (time, displacement) = (&truth.time, &truth.displacement);
+        let slope = |i: usize| {
+            let (low, high) = (i.saturating_sub(1), (i + 1).min(time.len() - 1));
+            let length = time[high] - time[low];
+            match length > 0.0 {
+                true => (displacement[high] - displacement[low]) / length,
+                false => 0.0,
+            }
+        };
+        Course {
+            time,
+            displacement,
+            slopes: (0..time.len()).map(slope).collect(),
         }
-    };
-    let i = after - 1;
-    if i == last {
-        return u[last] + slope(last) * (time - t[last]);
     }
-    let length = t[i + 1] - t[i];
-    let x = (time - t[i]) / length;
-    let bend = [slope(i) * length, slope(i + 1) * length];
-    let rise = u[i + 1] - u[i];
-    let cubic = bend[0] + bend[1] - 2.0 * rise;
-    let square = 3.0 * rise - 2.0 * bend[0] - bend[1];
-    u[i] + x * (bend[0] + x * (square + x * cubic))
+
+    /// U at `time`; `after` counts the samples that are no later, and is looked for from where it was
+    /// left: times that follow each other find it next door.
+    pub(super) fn at(&self, time: f64, after: &mut usize) -> f64 {
+        let (t, u) = (self.time, self.displacement);
+        while t.get(*after).is_some_and(|&sample| sample <= time) {
+            *after += 1;
+        }
+        while *after > 0 && t[*after - 1] > time {
+            *after -= 1;
+        }
+        let Some(i) = after.checked_sub(1) else {
+            return u.first().copied().unwrap_or_default();
+        };
+        if *after == t.len() {
+            return u[i] + self.slopes[i] * (time - t[i]);
+        }
+        let length = t[*after] - t[i];
+        let x = (time - t[i]) / length;
+        let bend = [self.slopes[i] * length, self.slopes[*after] * length];
+        let rise = u[*after] - u[i];
+        let cubic = bend[0] + bend[1] - 2.0 * rise;
+        let square = 3.0 * rise - 2.0 * bend[0] - bend[1];
+        u[i] + x * (bend[0] + x * (square + x * cubic))
+    }
 }
 
 impl Effect for SensorDelay {
@@ -81,9 +82,11 @@ impl Effect for SensorDelay {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        let course = Course::of(truth);
+        let mut after = 0;
         let samples = truth.time.iter().zip(&truth.displacement);
         samples
-            .map(|(t, u)| displacement_at(truth, t - values[0]) - u)
+            .map(|(t, u)| course.at(t - values[0], &mut after) - u)
             .collect()
     }
 }
@@ -115,21 +118,34 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_place_of_a_time_is_found_among_even_and_uneven_samples() {
+    fn the_place_of_a_time_is_found_from_any_other() {
         let even: Vec<f64> = (0..100).map(|i| 0.3 + 0.01 * f64::from(i)).collect();
         let uneven: Vec<f64> = even.iter().map(|t| t.powi(5)).collect();
-        for samples in [&even, &uneven, &vec![2.0], &vec![]] {
-            for i in -20..260 {
-                let time = 0.01 * f64::from(i);
-                let expected = samples.partition_point(|&sample| sample <= time);
+        for time in [even, uneven, vec![2.0], vec![]] {
+            let truth = Trajectory {
+                begins: 0.0,
+                displacement: time.clone(),
+                force: vec![],
+                time: time.clone(),
+            };
+            let course = Course::of(&truth);
+            let mut after = 0;
+            // Up, down and in leaps.
+            for i in (-20..260)
+                .chain((-20..260).rev())
+                .chain((0..260).step_by(97))
+            {
+                let at = 0.01 * f64::from(i);
+                course.at(at, &mut after);
                 assert_eq!(
-                    first_after(samples, time),
-                    expected,
-                    "{time} of {samples:?}"
+                    after,
+                    time.partition_point(|&t| t <= at),
+                    "{at} of {time:?}"
                 );
             }
-            for (i, time) in samples.iter().enumerate() {
-                assert_eq!(first_after(samples, *time), i + 1);
+            for (i, at) in time.iter().enumerate() {
+                assert!((course.at(*at, &mut after) - at).abs() < 1e-15);
+                assert_eq!(after, i + 1);
             }
         }
     }
