@@ -1,7 +1,7 @@
 """One blind case: joint, campaign, effect of known strength, noise; files and the truth apart."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from .rig import Effect, Infeasible
 from .scene import Scene
 
 FLOOR = 0.2  # the clean record must refit to this fraction of its noise
+CLOCK = 0.5  # of the noise is what halving the rig's steps may change
 
 
 class Unreachable(Exception):
@@ -158,12 +159,28 @@ def stage_scene(rng, names, ratio, noise_kind):
     return scene, share, gauge, level, kind
 
 
-def planted(name, scene, rng, gauge, target, refused):
+def clocked(scene, effect, sampled):
+    """Rms of what halving the rig's steps changes in the response [its unit].
+
+    Limits that follow the joint act one step late: what comes of it is the rig's, not the joint's.
+    """
+    if not {"limits", "after"} <= effect.acts:
+        return 0.0
+    finer = replace(scene, histories=[h.halved() for h in scene.histories])
+    again = Sampled(finer, finer.play(effect), effect)
+    pairs = zip(again.response, sampled.response, strict=True)
+    return float(np.std(np.concatenate([a - b for a, b in pairs])))
+
+
+def planted(name, scene, rng, gauge, target, noise, refused):
     """(effect, misfit, channels) of one effect that leaves the target alone, in three drafts."""
     for _ in range(3):
         try:
             effect = EFFECTS[name](scene, rng)
-            return effect, *calibrate(gauge, effect, target)
+            found, sampled = calibrate(gauge, effect, target)
+            if clocked(scene, effect, sampled) > CLOCK * noise:
+                raise Unreachable("the rig's steps would show")
+            return effect, found, sampled
         except (Unreachable, Infeasible) as reason:
             refused.append(str(reason))
     raise Unreachable(f"no draft of {name} would do")
@@ -185,8 +202,11 @@ def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, 
             scene, share, gauge, level, kind = stage_scene(rng, (name,), ratio, noise)
             effect, found, sampled = Effect(), gauge.floor, gauge.clean
             if name != "clean":
-                target = ratio * level * gauge.rms
-                effect, found, sampled = planted(name, scene, rng, gauge, target, refused)
+                noise_rms = level * gauge.rms
+                target = ratio * noise_rms
+                effect, found, sampled = planted(
+                    name, scene, rng, gauge, target, noise_rms, refused
+                )
         except (Unreachable, Infeasible, RuntimeError) as reason:
             refused.append(str(reason))
             continue

@@ -160,6 +160,9 @@ class RunningIn(Scaled):
         return {"initial_change": self.sign * 0.5 * self.strength, "length_m": self.length}
 
 
+RESOLVED = 12  # steps of the rig in the memory of a rate
+
+
 class _RateState(Scaled):
     """Friction that follows the slip rate, felt over a short memory."""
 
@@ -170,7 +173,10 @@ class _RateState(Scaled):
             float(np.sqrt(np.mean(np.gradient(t.slip, t.time) ** 2))) for t in scene.clean
         )
         self.reference = typical * 10 ** rng.uniform(-2.0, -0.7)
-        self.memory = 0.015 / scene.fastest
+        # Limits of one step act in the next: with a memory of few of them what is recorded is the
+        # rig's clock, by several times the noise where the joint is near full slip.
+        coarsest = max(float(h.time[1] - h.time[0]) for h in scene.histories)
+        self.memory = max(0.015 / scene.fastest, RESOLVED * coarsest)
 
     def reset(self):
         self.rate = 0.0
@@ -194,7 +200,11 @@ class RateDependentFriction(_RateState):
         return 1.0 + 0.1 * self.strength * np.arcsinh(x)
 
     def describe(self):
-        return {"per_e_fold": 0.1 * self.strength, "reference_rate_m_per_s": self.reference}
+        return {
+            "per_e_fold": 0.1 * self.strength,
+            "reference_rate_m_per_s": self.reference,
+            "memory_s": self.memory,
+        }
 
 
 class VelocityWeakening(_RateState):
@@ -207,7 +217,11 @@ class VelocityWeakening(_RateState):
         return 1.0 - 0.4 * self.strength * x / (1.0 + x)
 
     def describe(self):
-        return {"final_fall": 0.4 * self.strength, "reference_rate_m_per_s": self.reference}
+        return {
+            "final_fall": 0.4 * self.strength,
+            "reference_rate_m_per_s": self.reference,
+            "memory_s": self.memory,
+        }
 
 
 class StaticFrictionDrop(Scaled):

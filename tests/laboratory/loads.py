@@ -1,6 +1,6 @@
 """Load histories: blocks of amplitude, rate and shape on a fine grid, peak normalised to one."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -20,6 +20,14 @@ class History:
     def samples(self) -> int:
         """Sampled points."""
         return (len(self.time) - 1) // self.fine + 1
+
+    def halved(self):
+        """The same command, straight between its points, on a grid of twice as many steps."""
+        half = np.arange(2 * len(self.time) - 1) / 2
+        whole = np.arange(len(self.time))
+        time = np.interp(half, whole, self.time)
+        command = np.interp(half, whole, self.command)
+        return replace(self, time=time, command=command, fine=2 * self.fine)
 
     def describe(self) -> dict:
         """Plain values for the truth."""

@@ -86,10 +86,11 @@ def stage_pair(seed, number, names=None, ratio=2.0, noise=None):
         rng = np.random.default_rng([seed, number, attempt, 2])
         try:
             scene, share, gauge, level, kind = stage_scene(rng, names, ratio, noise)
-            target = ratio * level * gauge.rms
+            noise_rms = level * gauge.rms
+            target = ratio * noise_rms
             parts, found = [], []
             for name in names:
-                effect, left, _ = planted(name, scene, rng, gauge, target, refused)
+                effect, left, _ = planted(name, scene, rng, gauge, target, noise_rms, refused)
                 parts.append(effect)
                 found.append(left)
             both = Together(*parts)
