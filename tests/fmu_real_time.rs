@@ -75,11 +75,12 @@ const CAUSES: &str = r#"
                                                      "displacement_weight": 0.0}},
     {"name": "preload_loss", "parameters": {"loss": 0.05, "energy": 10.0, "tail": 0.3}},
     {"name": "running_in", "parameters": {"deficit": 0.05, "energy": 0.1, "tail": 0.0}},
-    {"name": "velocity_weakening", "parameters": {"drop": 0.02, "stribeck_rate": 1e-3}},
+    {"name": "velocity_weakening", "parameters": {"drop": 0.02, "stribeck_rate": 1e-3,
+                                                  "memory": 0.01}},
     {"name": "static_friction_drop", "parameters": {"excess": 0.05,
                                                     "breakaway_distance": 0.0}},
     {"name": "rate_dependent_friction", "parameters": {"gain": 0.02,
-                                                       "reference_rate": 1e-4}}"#;
+                                                       "reference_rate": 1e-4, "memory": 0.01}}"#;
 
 /// A density that is a table, and one of sliders.
 const TABLE: &str = r#"{

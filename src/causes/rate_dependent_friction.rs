@@ -6,10 +6,10 @@ use crate::joint::elementary::{expm1, log1p};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces grow with the slip rate, `n = 1 + a ln(1 + v/v_0)`, where v follows |u̇| over
-/// a short memory, see [`follow_rate`].
+/// a memory, see [`follow_rate`].
 pub struct RateDependentFriction;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "gain",
         symbol: "a",
@@ -30,34 +30,34 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "slip rate below which friction no longer falls",
     },
+    Parameter {
+        name: "memory",
+        symbol: "t_m",
+        unit: "s",
+        lower: 1e-9,
+        upper: 1e9,
+        vanishes_at: None,
+        neutral: None,
+        meaning: "time in which contacts take on a new slip rate",
+    },
 ];
 
-/// Slip over which contacts take on a new rate at the fastest slip so far, as a share of the widest.
-const RENEWAL: f64 = 0.05;
-
-/// Numbers of history that [`follow_rate`] keeps.
-pub(super) const RATE_MEMORY: usize = 4;
-
-/// Takes a sample into the history `[v, lowest u, highest u, fastest |u̇|]`: v approaches the slip
-/// rate's magnitude within the time that the fastest slip so far takes for a distance d of [`RENEWAL`],
-/// `v += (|u̇| − v)(1 − exp(−|u̇|_max Δt / d))`.
+/// Takes a sample into the history, the rate v: it approaches the slip rate's magnitude within the time
+/// `t` that contacts take for it, `v += (|u̇| − v)(1 − exp(−Δt/t))`.
 ///
-/// Contacts renew themselves over a slip distance (Dieterich's memory) and forget while they rest;
-/// the limit that this sample answers with is known only in the next one, and without a memory, or
-/// with one that a surge of slip shortens, it would swing from step to step. A contact that turns has
-/// been sliding a moment ago: a memory of the rate with its sign would pass through rest behind every
-/// turn, and so short a rest that the distance between samples would decide what is seen of it.
-pub(super) fn follow_rate(now: &Situation, memory: &mut [f64]) {
-    if let [rate, low, high, fastest] = memory {
-        *low = low.min(now.slip);
-        *high = high.max(now.slip);
-        *fastest = fastest.max(now.slip_rate.abs());
-        let renewal = RENEWAL * (*high - *low);
-        if renewal > 0.0 {
-            *rate -= expm1(-*fastest * now.step / renewal) * (now.slip_rate.abs() - *rate);
-        }
+/// Contacts renew themselves while they slide and forget while they rest; the limit that a sample
+/// answers with is known only in the next one, and without a memory it would swing from step to step.
+/// A contact that turns has been sliding a moment ago: a memory of the rate with its sign would pass
+/// through rest behind every turn. How low friction falls there, where most of a joint slips, is
+/// for the memory to say: it is one of the values to be found.
+pub(super) fn follow_rate(now: &Situation, memory_time: f64, memory: &mut [f64]) {
+    if let [rate] = memory {
+        *rate -= expm1(-now.step / memory_time) * (now.slip_rate.abs() - *rate);
     }
 }
+
+/// Memory to start from, in periods of the fastest motion: a tenth of a radian.
+pub(super) const MEMORY: f64 = 0.016;
 
 impl Effect for RateDependentFriction {
     fn name(&self) -> &'static str {
@@ -70,10 +70,10 @@ impl Effect for RateDependentFriction {
         &PARAMETERS
     }
     fn memory(&self) -> usize {
-        RATE_MEMORY
+        1
     }
-    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
-        follow_rate(now, memory);
+    fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_rate(now, values[2], memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 + values[0] * log1p(memory[0] / values[1]);
@@ -96,7 +96,7 @@ impl Cause for RateDependentFriction {
                 "sensor_delay",
             ],
             separated_by: "Two decades of frequency: steps are equal per decade here and proportional to frequency with a dashpot, and the effect is absent below slip; weakening has the other sign.",
-            formula: "phi = phi_0 [1 + a ln(1 + v/v_0)], v following |du/dt| over a short memory",
+            formula: "phi = phi_0 [1 + a ln(1 + v/v_0)], dv/dt = (|du/dt| - v)/t_m",
             source: "Direct effect of rate-and-state friction, Dieterich 1979 and Ruina 1983, regularised at rest.",
         }
     }
@@ -109,7 +109,7 @@ impl Cause for RateDependentFriction {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [1e-3, 0.03, 0.5]
             .iter()
-            .map(|share| vec![0.005, share * scale.velocity])
+            .map(|share| vec![0.005, share * scale.velocity, MEMORY * scale.period])
             .collect()
     }
 }
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn friction_grows_with_the_logarithm_of_a_rate_held() {
-        let (values, mut memory) = ([0.1, 1e-3], [0.0; RATE_MEMORY]);
+        let (values, mut memory) = ([0.1, 1e-3, 0.05], [0.0]);
         assert_eq!(
             RateDependentFriction.slip_limit(&values, &Situation::default(), &memory),
             SlipLimit::UNCHANGED
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_contact_that_turns_keeps_the_rate_it_slid_with() {
-        let mut memory = [0.0; RATE_MEMORY];
+        let mut memory = [0.0];
         let mut slide = |slip: f64, slip_rate: f64| {
             let now = Situation {
                 step: 0.01,
@@ -149,7 +149,7 @@ mod tests {
                 slip_rate,
                 ..Situation::default()
             };
-            follow_rate(&now, &mut memory);
+            follow_rate(&now, 0.05, &mut memory);
             memory[0]
         };
         let forth = (1..=2000).fold(0.0, |_, i| slide(1e-5 * f64::from(i), 1e-3));

@@ -1,16 +1,16 @@
 //! `velocity_weakening`: friction falls with the slip rate (Stribeck).
 
-use super::rate_dependent_friction::{RATE_MEMORY, follow_rate};
+use super::rate_dependent_friction::{MEMORY, follow_rate};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−v/v_s)]`, where v follows |u̇|
-/// over a short memory.
+/// over a memory.
 pub struct VelocityWeakening;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "drop",
         symbol: "a",
@@ -31,6 +31,16 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "slip rate over which friction falls",
     },
+    Parameter {
+        name: "memory",
+        symbol: "t_m",
+        unit: "s",
+        lower: 1e-9,
+        upper: 1e9,
+        vanishes_at: None,
+        neutral: None,
+        meaning: "time in which contacts take on a new slip rate",
+    },
 ];
 
 impl Effect for VelocityWeakening {
@@ -44,10 +54,10 @@ impl Effect for VelocityWeakening {
         &PARAMETERS
     }
     fn memory(&self) -> usize {
-        RATE_MEMORY
+        1
     }
-    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
-        follow_rate(now, memory);
+    fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_rate(now, values[2], memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 + values[0] * expm1(-memory[0] / values[1]);
@@ -70,7 +80,7 @@ impl Cause for VelocityWeakening {
                 "creep",
             ],
             separated_by: "The same stroke at several frequencies: a drop after breakaway follows slid distance and stays the same, weakening follows the rate; growth with rate has the other sign.",
-            formula: "phi = phi_0 [1 - a (1 - exp(-v/v_s))], v following |du/dt| over a short memory",
+            formula: "phi = phi_0 [1 - a (1 - exp(-v/v_s))], dv/dt = (|du/dt| - v)/t_m",
             source: "Stribeck curve as in Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994.",
         }
     }
@@ -83,7 +93,7 @@ impl Cause for VelocityWeakening {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.03, 0.15, 0.6]
             .iter()
-            .map(|share| vec![0.02, share * scale.velocity])
+            .map(|share| vec![0.02, share * scale.velocity, MEMORY * scale.period])
             .collect()
     }
 }
@@ -94,10 +104,8 @@ mod tests {
 
     #[test]
     fn friction_falls_with_the_rate_to_what_is_left() {
-        let at = |rate| {
-            let memory = [rate, 0.0, 1.0];
-            VelocityWeakening.slip_limit(&[0.4, 2.0], &Situation::default(), &memory)
-        };
+        let at =
+            |rate| VelocityWeakening.slip_limit(&[0.4, 2.0, 0.01], &Situation::default(), &[rate]);
         assert_eq!(at(0.0), SlipLimit::UNCHANGED);
         let expected = 1.0 - 0.4 * (1.0 - (-0.5_f64).exp());
         assert!((at(1.0).positive - expected).abs() < 1e-15);
