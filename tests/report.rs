@@ -112,7 +112,9 @@ fn explained() -> Findings {
             estimate("stiffness", 1.234e6, "N/m", Some((1.18e6, 1.29e6))),
             estimate("gap", 6.02e-6, "m", Some((5.9e-6, 6.5e-6))),
             estimate("asymmetry", 0.04, "1", None),
+            estimate("rounding", 0.0, "m", None),
         ],
+        absent: vec!["rounding".to_owned()],
         ambiguous_with: vec!["cubic_stiffness".to_owned()],
         evidence: 812.4,
         matters: 0.0713,
@@ -296,6 +298,7 @@ fn json_follows_the_schema_field_by_field() {
                 {"name": "stiffness", "value": 1.234e6, "unit": "N/m", "interval": [1.18e6, 1.29e6]},
                 {"name": "gap", "value": 6.02e-6, "unit": "m", "interval": [5.9e-6, 6.5e-6]},
                 {"name": "asymmetry", "value": 0.04, "unit": "1", "interval": null},
+                {"name": "rounding", "value": 0.0, "unit": "m", "interval": null},
             ],
             "ambiguous_with": ["cubic_stiffness"],
             "evidence": 812.4,
@@ -491,6 +494,7 @@ fn text_has_the_verdict_first_and_fits_a_screen() {
         );
     }
     let text = text::render(&explained());
+    assert!(!text.contains("rounding"), "no refinement that is absent");
     for shown in [
         "by 122 nm rms on unseen data, 3.5 × the noise of 34.6 nm",
         "1.234 MN/m  ± 0.055 MN/m (4.5 %)",

@@ -136,6 +136,8 @@ fn effects() -> Vec<Acting> {
         stiffness: 1.1e7,
         dissipation: 0.1,
         lengths: vec![0.1],
+        jumps: vec![],
+        path: 1e-3,
         period: 0.02,
         step: STEP,
     };

@@ -65,8 +65,13 @@ pub struct Scale {
     pub stiffness: f64,
     /// Energy the baseline dissipates over the longest record \[J\].
     pub dissipation: f64,
+    /// Path of the displacement over the longest record \[m\].
+    pub path: f64,
     /// Lengths of all records in their order \[s\].
     pub lengths: Vec<f64>,
+    /// Times at which the displacement may have jumped, counted through the records one after another
+    /// \[s\].
+    pub jumps: Vec<f64>,
     /// Shortest period of the drive \[s\].
     pub period: f64,
     /// Time between samples \[s\].

@@ -2,7 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
-use crate::joint::elementary::{exp, hypot, tanh};
+use crate::joint::elementary::{exp, hypot, log, tanh};
 use crate::joint::parameters::Parameter;
 
 /// The sensor's zero moves by a height at a time, `U_meas = U + (h/2)[1 + tanh(2 (t − t_0)/w)]`,
@@ -41,7 +41,7 @@ static PARAMETERS: [Parameter; 3] = [
         symbol: "p",
         unit: "1",
         lower: SLOWEST,
-        upper: 16.0,
+        upper: SHARPEST,
         vanishes_at: None,
         neutral: None,
         meaning: "natural logarithm of the record's length over that of the jump",
@@ -67,7 +67,14 @@ impl Effect for OffsetStep {
     }
 }
 
-/// Starts of a search over all records together.
+/// A jump that is over before the next sample.
+const SHARPEST: f64 = 16.0;
+
+/// Samples over which a jump goes that is looked for at a step that stands out: sharper, its time could
+/// not be moved.
+const BEGUN: f64 = 4.0;
+
+/// Starts of a search over all records together, beside those at steps that stand out.
 const MOST_STARTS: usize = 24;
 
 /// Time of the middle of the jump on the record's own clock and its length \[s\]; `None` in a record
@@ -132,6 +139,15 @@ impl Cause for OffsetStep {
             }
             begins += length;
         }
+        let height = 0.005 * scale.displacement;
+        let samples = scale.duration() / scale.step;
+        let sharpness = log(samples / BEGUN).clamp(SLOWEST, SHARPEST);
+        starts.extend(
+            scale
+                .jumps
+                .iter()
+                .map(|&time| vec![height, time, sharpness]),
+        );
         starts
     }
 }

@@ -5,10 +5,11 @@ use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::{exp, log1p};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`.
+/// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`, or with the path of
+/// the slip, see [`worn`].
 pub struct PreloadLoss;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "loss",
         symbol: "l",
@@ -24,9 +25,9 @@ static PARAMETERS: [Parameter; 3] = [
         symbol: "E_0",
         unit: "J",
         lower: 1e-15,
-        upper: 1e12,
+        upper: ENDLESS,
         vanishes_at: None,
-        neutral: None,
+        neutral: Some(ENDLESS),
         meaning: "dissipated energy over which the loss happens",
     },
     Parameter {
@@ -39,7 +40,37 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: Some(0.0),
         meaning: "how slowly the loss dies out: exponentially for 0, as 1/(1 + E/E_0) for 1",
     },
+    Parameter {
+        name: "per_path",
+        symbol: "1/L",
+        unit: "1/m",
+        lower: 0.0,
+        upper: 1e15,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "one over the path of the slip over which the loss happens, where it follows that and not the energy",
+    },
 ];
+
+/// An energy over which nothing wears \[J\].
+pub(super) const ENDLESS: f64 = 1e12;
+
+/// Numbers of history that [`follow_path`] keeps.
+pub(super) const PATH_MEMORY: usize = 2;
+
+/// Takes a sample into the history `[path of the slip, u]`.
+pub(super) fn follow_path(now: &Situation, memory: &mut [f64]) {
+    if let [path, slip] = memory {
+        *path += (now.slip - *slip).abs();
+        *slip = now.slip;
+    }
+}
+
+/// Work done in units of what a change takes, `E/E_0 + s/L`: wear goes with the dissipated energy
+/// (Fouvry), or with the path s under a load that is the same everywhere (Archard).
+pub(super) fn worn(dissipation: f64, path: f64, energy: f64, per_path: f64) -> f64 {
+    dissipation / energy + path * per_path
+}
 
 /// What is left of a change after the work `x` in units of its energy, `(1 + q x)^(−1/q)`.
 pub(super) fn remaining(work: f64, tail: f64) -> f64 {
@@ -63,8 +94,15 @@ impl Effect for PreloadLoss {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 - values[0] * (1.0 - remaining(last.dissipation / values[1], values[2]));
+    fn memory(&self) -> usize {
+        PATH_MEMORY
+    }
+    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_path(now, memory);
+    }
+    fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
+        let worn = worn(last.dissipation, memory[0], values[1], values[3]);
+        let limit = 1.0 - values[0] * (1.0 - remaining(worn, values[2]));
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -84,23 +122,55 @@ impl Cause for PreloadLoss {
                 "slack_growth",
             ],
             separated_by: "Repeated equal blocks: drift moves the loop without widening it, running-in settles within the first cycles, slack growth follows new peaks.",
-            formula: "phi = phi_0 [1 - l (1 - (1 + q E/E_0)^(-1/q))], exp(-E/E_0) for q = 0",
-            source: "Archard wear with the dissipated energy as the measure of work; Fouvry's energy-based wear.",
+            formula: "phi = phi_0 [1 - l (1 - (1 + q w)^(-1/q))], exp(-w) for q = 0, w = E/E_0 or s/L",
+            source: "Archard wear over the path of the slip; Fouvry's wear over the dissipated energy.",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
         &PreloadLoss
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], 0.3]
+        vec![values[0], values[1], 0.3, values[3]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[1] > LATE * scale.dissipation
+        worn(
+            LATE * scale.dissipation,
+            LATE * scale.path,
+            values[1],
+            values[3],
+        ) < 1.0
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        [0.1, 0.2, 0.4, 0.8, 2.0]
-            .iter()
-            .map(|share| vec![0.02, share * scale.dissipation, 0.0])
-            .collect()
+        let shares = [0.1, 0.2, 0.4, 0.8, 2.0];
+        let by_energy = shares.map(|share| vec![0.02, share * scale.dissipation, 0.0, 0.0]);
+        let by_path = shares.map(|share| vec![0.02, ENDLESS, 0.0, 1.0 / (share * scale.path)]);
+        by_energy.into_iter().chain(by_path).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wear_goes_with_the_energy_or_with_the_path() {
+        let mut memory = [0.0; PATH_MEMORY];
+        for slip in [1.0, 3.0, 2.0, -1.0] {
+            let now = Situation {
+                slip,
+                ..Situation::default()
+            };
+            PreloadLoss.remember(&[], &now, &mut memory);
+        }
+        assert_eq!(memory, [7.0, -1.0]);
+        let last = Situation {
+            dissipation: 4.0,
+            ..Situation::default()
+        };
+        let at = |values: [f64; 4]| PreloadLoss.slip_limit(&values, &last, &memory).positive;
+        let after = |work: f64| 1.0 - 0.3 * (1.0 - (-work).exp());
+        assert!((at([0.3, 8.0, 0.0, 0.0]) - after(0.5)).abs() < 1e-15);
+        assert!((at([0.3, ENDLESS, 0.0, 0.1]) - after(0.7)).abs() < 1e-11);
+        assert!((at([0.3, ENDLESS, 1.0, 0.1]) - (1.0 - 0.3 * (1.0 - 1.0 / 1.7))).abs() < 1e-11);
     }
 }

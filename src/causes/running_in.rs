@@ -1,14 +1,15 @@
 //! `running_in`: friction settles to its lasting value within the first cycles.
 
-use super::preload_loss::remaining;
+use super::preload_loss::{ENDLESS, PATH_MEMORY, follow_path, remaining, worn};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`.
+/// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`, or with the path of the
+/// slip, see [`worn`].
 pub struct RunningIn;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "deficit",
         symbol: "a",
@@ -24,9 +25,9 @@ static PARAMETERS: [Parameter; 3] = [
         symbol: "E_0",
         unit: "J",
         lower: 1e-15,
-        upper: 1e12,
+        upper: ENDLESS,
         vanishes_at: None,
-        neutral: None,
+        neutral: Some(ENDLESS),
         meaning: "dissipated energy over which the surfaces settle",
     },
     Parameter {
@@ -39,9 +40,19 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: Some(0.0),
         meaning: "how slowly the change dies out: exponentially for 0, as 1/(1 + E/E_0) for 1",
     },
+    Parameter {
+        name: "per_path",
+        symbol: "1/L",
+        unit: "1/m",
+        lower: 0.0,
+        upper: 1e15,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "one over the path of the slip over which the surfaces settle, where they follow that and not the energy",
+    },
 ];
 
-/// Share of a record's dissipated energy over which friction that falls has to settle: what takes
+/// Share of a record's dissipated energy or path over which friction that falls has to settle: what takes
 /// longer is lost preload. The span of lost preload begins below it: between the two either word
 /// fits.
 const SOON: f64 = 0.2;
@@ -56,8 +67,15 @@ impl Effect for RunningIn {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 - values[0] * remaining(last.dissipation / values[1], values[2]);
+    fn memory(&self) -> usize {
+        PATH_MEMORY
+    }
+    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+        follow_path(now, memory);
+    }
+    fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
+        let worn = worn(last.dissipation, memory[0], values[1], values[3]);
+        let limit = 1.0 - values[0] * remaining(worn, values[2]);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -72,24 +90,30 @@ impl Cause for RunningIn {
             sign: "The first loops are wider and softer than the later ones of the same load; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
             separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
-            formula: "phi = phi_0 [1 - a (1 + q E/E_0)^(-1/q)], exp(-E/E_0) for q = 0",
-            source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy as the measure of work (Fouvry; Schwingshackl et al. 2012).",
+            formula: "phi = phi_0 [1 - a (1 + q w)^(-1/q)], exp(-w) for q = 0, w = E/E_0 or s/L",
+            source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy (Fouvry; Schwingshackl et al. 2012) or the path of the slip as the measure of work.",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
         &RunningIn
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], 0.3]
+        vec![values[0], values[1], 0.3, values[3]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[0] > 0.0 || values[1] < SOON * scale.dissipation
+        values[0] > 0.0
+            || worn(
+                SOON * scale.dissipation,
+                SOON * scale.path,
+                values[1],
+                values[3],
+            ) > 1.0
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        [0.01, 0.05, 0.2, 0.8]
-            .iter()
-            .map(|share| vec![0.05, share * scale.dissipation, 0.0])
-            .collect()
+        let shares = [0.01, 0.05, 0.2, 0.8];
+        let by_energy = shares.map(|share| vec![0.05, share * scale.dissipation, 0.0, 0.0]);
+        let by_path = shares.map(|share| vec![0.05, ENDLESS, 0.0, 1.0 / (share * scale.path)]);
+        by_energy.into_iter().chain(by_path).collect()
     }
 }
 
@@ -104,7 +128,9 @@ mod tests {
                 dissipation,
                 ..Situation::default()
             };
-            RunningIn.slip_limit(&[0.4, 2.0, 0.0], &last, &[]).positive
+            RunningIn
+                .slip_limit(&[0.4, 2.0, 0.0, 0.0], &last, &[0.0; 2])
+                .positive
         };
         assert_eq!(at(0.0), 0.6);
         assert!((at(2.0) - (1.0 - 0.4 / std::f64::consts::E)).abs() < 1e-15);

@@ -52,12 +52,23 @@ pub struct NamedCause {
     pub kind: String,
     /// Its parameters.
     pub parameters: Vec<Estimate>,
+    /// Those of its parameters that are refinements which the data do not ask for: they have the value at
+    /// which they are absent.
+    pub absent: Vec<String>,
     /// Names the data cannot tell from it.
     pub ambiguous_with: Vec<String>,
     /// Fall of the misfit, in noise variances, when this cause joins the others.
     pub evidence: f64,
     /// Share of the record's dissipated energy per cycle that the cause changes.
     pub matters: f64,
+}
+
+impl NamedCause {
+    /// Its parameters without refinements that the data do not ask for.
+    pub fn present(&self) -> Vec<Estimate> {
+        let present = |p: &&Estimate| !self.absent.contains(&p.name);
+        self.parameters.iter().filter(present).cloned().collect()
+    }
 }
 
 /// One line of the catalogue's scores.

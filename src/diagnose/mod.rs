@@ -15,6 +15,7 @@ mod places;
 pub mod prepare;
 mod probability;
 pub mod search;
+mod sizes;
 pub mod structure;
 mod tested;
 pub mod trials;
@@ -247,6 +248,7 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
                 name: acting.effect.name().to_string(),
                 kind: kind(acting.effect.name()),
                 parameters,
+                absent: absent(acting),
                 ambiguous_with: found.rivals.get(e).cloned().unwrap_or_default(),
                 evidence: found.evidence.get(e).copied().unwrap_or(0.0),
                 matters: gain::share_of_energy(&bench.whole, whole, e),
@@ -255,6 +257,13 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
         .collect();
     causes.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     causes
+}
+
+/// Names of the refinements of a law that a fit has left out.
+fn absent(acting: &Acting) -> Vec<String> {
+    let values = acting.effect.parameters().iter().zip(&acting.values);
+    let neutral = values.filter(|(p, v)| p.neutral == Some(**v));
+    neutral.map(|(p, _)| p.name.to_string()).collect()
 }
 
 fn kind(name: &str) -> String {

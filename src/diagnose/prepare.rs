@@ -1,8 +1,8 @@
 //! Before any fit: the form the records are judged in, their noise, what is held out.
 
 use super::mains_phase;
+use super::sizes::sizes;
 use crate::causes::Scale;
-use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::cycles::span;
@@ -108,7 +108,7 @@ pub fn prepare(records: &[Record]) -> Bench {
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
-    let scale = scale(&whole, &first);
+    let scale = sizes(&whole, &first);
     let train = whole.clone();
     let mut bench = Bench {
         whole,
@@ -287,42 +287,6 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
             noise
         })
         .collect()
-}
-
-fn scale(problem: &Problem, first: &Fit) -> Scale {
-    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut dissipation, mut step) = (0.0_f64, 0.0_f64);
-    for (k, record) in problem.records.iter().enumerate() {
-        let mut last = 0.0;
-        let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
-            last = march.dissipation();
-        });
-        let truth = prediction.truth;
-        force = force.max(largest(&truth.force));
-        displacement = displacement.max(largest(&truth.displacement));
-        dissipation = dissipation.max(last);
-        for i in 1..truth.displacement.len() {
-            let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
-            velocity = velocity.max(rate.abs());
-        }
-        step = record.steps.get(1).copied().unwrap_or(1.0).max(step);
-    }
-    let stiffness = match problem.operators.form {
-        Form::Play => 1.0 / first.coefficients[0].max(1e-3 * displacement / force),
-        Form::Stop => first.coefficients.iter().sum::<f64>(),
-    };
-    let period = std::f64::consts::TAU * displacement / velocity.max(f64::MIN_POSITIVE);
-    Scale {
-        force,
-        displacement,
-        velocity,
-        stiffness,
-        dissipation,
-        lengths: problem.records.iter().map(Prepared::length).collect(),
-        period,
-        step,
-    }
 }
 
 /// Root mean square about the mean.

@@ -46,8 +46,11 @@ impl Fit {
     }
 }
 
-/// Most Gauss–Newton steps of one refit.
+/// Gauss–Newton steps of one refit, and those that it may take as long as each takes a [`STEADY`] share
+/// of the misfit away: a way that goes down in a valley is long.
 const STEPS: usize = 10;
+const LONGEST: usize = 40;
+const STEADY: f64 = 0.01;
 
 /// Times the size of the effect that a refit starts from is cut to a third: sizes come from a score
 /// to first order.
@@ -82,6 +85,7 @@ pub fn baseline(problem: &Problem) -> Fit {
     let zero = vec![0.0; problem.operators.columns()];
     let once = Steps {
         most: 1,
+        longest: 1,
         ..Steps::full()
     };
     refine(problem, zero, Vec::new(), once)
@@ -177,6 +181,7 @@ fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Steps {
     most: usize,
+    longest: usize,
     /// A refit that would need [`PROSPECT`] more steps like its last one to come below this misfit
     /// is given up.
     bound: f64,
@@ -194,6 +199,7 @@ impl Steps {
     fn full() -> Steps {
         Steps {
             most: STEPS,
+            longest: LONGEST,
             bound: f64::INFINITY,
             before: f64::INFINITY,
         }
@@ -251,7 +257,7 @@ fn descend(
     let mut damping = 0.0;
     // A limit that follows what the joint does makes the answer less than linear in the dictionary.
     let implicit = effects.iter().any(|a| a.effect.place() == Place::SlipLimit);
-    for round in 0..steps.most {
+    for round in 0..steps.longest {
         let slopes = slopes(problem, &coefficients, &effects, &predictions);
         let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
         let records = problem.records.len();
@@ -281,7 +287,11 @@ fn descend(
             {
                 let fall = misfit - trial_misfit;
                 let prospect = round < FIRST || trial_misfit - PROSPECT * fall < steps.bound;
-                accepted = fall > SETTLED * misfit && prospect;
+                let least = match round + 1 < steps.most {
+                    true => SETTLED,
+                    false => STEADY,
+                };
+                accepted = fall > least * misfit && prospect;
                 coefficients = solution[..columns].to_vec();
                 effects = trial_effects;
                 predictions = trial;

@@ -1,6 +1,7 @@
 //! A measurement as values. SI units.
 
 pub mod cycles;
+pub mod jumps;
 pub mod noise;
 pub mod outliers;
 pub mod peaks;

@@ -81,7 +81,7 @@ fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
             "part of the joint and of the exported unit"
         },
         weight => wording::weight_sentence(cause),
-        parameters => estimates(&cause.parameters),
+        parameters => estimates(&cause.present()),
         rivals => rivals.collect::<Vec<_>>(),
         page => page_of(&cause.name).map(|page| context! {
             happens => page.happens,

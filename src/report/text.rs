@@ -130,7 +130,7 @@ fn cause(cause: &NamedCause) -> Section {
         )));
     }
     let kept = lines.len();
-    lines.extend(table(&cause.parameters));
+    lines.extend(table(&cause.present()));
     lines.extend(column(&wording::weight_sentence(cause)));
     Section {
         kept,

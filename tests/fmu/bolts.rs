@@ -12,6 +12,8 @@ fn causes() -> Vec<(&'static str, String)> {
         stiffness: 1.1e7,
         dissipation: 0.1,
         lengths: vec![0.4],
+        jumps: vec![],
+        path: 1e-3,
         period: 0.02,
         step: 1e-3,
     };

@@ -225,6 +225,7 @@ impl<'a> Search<'a> {
                 name: shown.name().to_string(),
                 kind: super::kind(shown.name()),
                 parameters: exported::estimates(*shown, &values, &spread),
+                absent: Vec::new(),
                 ambiguous_with: rivals.clone(),
                 evidence: *fall,
                 matters: (1.0 - loss(&without) / whole).abs(),

@@ -1,0 +1,64 @@
+//! Sizes of the records that the starts of the search are measured in.
+
+use crate::causes::Scale;
+use crate::identify::problem::Prepared;
+use crate::identify::{Fit, Form, Problem};
+use crate::record::jumps::jumps;
+
+/// Sizes of the records, from the baseline's truth.
+pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut dissipation, mut path, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (k, record) in problem.records.iter().enumerate() {
+        let mut last = 0.0;
+        let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
+            last = march.dissipation();
+        });
+        let truth = prediction.truth;
+        let moves = truth.displacement.windows(2);
+        path = path.max(moves.map(|two| (two[1] - two[0]).abs()).sum());
+        force = force.max(largest(&truth.force));
+        displacement = displacement.max(largest(&truth.displacement));
+        dissipation = dissipation.max(last);
+        for i in 1..truth.displacement.len() {
+            let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
+            velocity = velocity.max(rate.abs());
+        }
+        step = record.steps.get(1).copied().unwrap_or(1.0).max(step);
+    }
+    let stiffness = match problem.operators.form {
+        Form::Play => 1.0 / first.coefficients[0].max(1e-3 * displacement / force),
+        Form::Stop => first.coefficients.iter().sum::<f64>(),
+    };
+    let period = std::f64::consts::TAU * displacement / velocity.max(f64::MIN_POSITIVE);
+    Scale {
+        force,
+        displacement,
+        velocity,
+        stiffness,
+        dissipation,
+        path,
+        lengths: problem.records.iter().map(Prepared::length).collect(),
+        jumps: possible_jumps(problem),
+        period,
+        step,
+    }
+}
+
+/// Places of every record at which the displacement may have jumped.
+const JUMPS: usize = 2;
+
+/// Times in the middle of the steps that stand out most.
+fn possible_jumps(problem: &Problem) -> Vec<f64> {
+    let mut begins = 0.0;
+    let mut times = Vec::new();
+    for record in &problem.records {
+        let first = record.time.first().copied().unwrap_or(0.0);
+        for i in jumps(&record.displacement, JUMPS) {
+            times.push(begins + record.time[i] - 0.5 * record.steps[i] - first);
+        }
+        begins += record.length();
+    }
+    times
+}
