@@ -36,6 +36,8 @@ BOLT = {
     },
     "series_stiffness": 4e7,
     "causes": [],
+    # As hands write it.
+    "provenance": {"date": "2024-05-01"},
 }
 CAUSES = [
     {
