@@ -96,8 +96,8 @@ fn errors_of_causes_that_follow_the_joint_fall_with_the_step() {
         // First order is a factor of four from one to the next; contacts that let go one by one make it
         // uneven, and an error that changes its sign between two of them makes one of them small: that of a
         // limit that follows the rate does where the steps begin to resolve its memory. From there on, beyond
-        // what is tried here, it falls by half an order: behind a turn contacts first let go and then follow the
-        // slip back, within one step.
+        // what is tried here, it falls by half an order: behind a turn rate and limit feed back on each other,
+        // and a step takes the limit of the last point.
         let coarser = middle.max(0.25 * coarse);
         assert!(fine < 0.5 * coarser, "{name}: {coarse}, {middle}, {fine}");
         assert!(middle < 0.05, "{name}: {middle} at 64 steps");
