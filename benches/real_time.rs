@@ -1,9 +1,16 @@
-//! How long one step of the FMU takes at most: `cargo bench --bench real_time`, four minutes.
+//! How long one step of the FMU takes at most: `cargo bench --bench real_time`, some five minutes.
 //!
 //! Ten million steps (a million of those with every cause) through the C boundary, each timed by
-//! itself: set the input, fmi2DoStep, get the output. By the wall clock they include whatever else the machine did meanwhile; by the
-//! thread's own processor time they do not, but for interrupts. The row `timer` is what both clocks
-//! show around nothing. A number behind the command divides the count of steps.
+//! itself: set the input, fmi2DoStep, get the output. By the wall clock they include whatever else
+//! the machine did meanwhile; by the thread's own processor time they do not, but for interrupts.
+//! The row `nothing but the clock` is what both clocks show around nothing.
+//!
+//! Both clocks go to stderr, the table of README.md (processor time) to stdout. Words behind `--`:
+//! `--readme` puts the table into README.md, between its markers; a number divides the count of
+//! steps, to try it.
+
+#[path = "real_time/readme.rs"]
+mod readme;
 
 #[path = "../tests/fmu/bolts.rs"]
 #[allow(dead_code)] // those with one cause are the tests'
@@ -82,18 +89,19 @@ impl Clocks {
         self.processor.take(used);
     }
 
-    fn tell(&self, name: &str) {
-        let (wall, processor) = (&self.wall, &self.processor);
-        println!(
-            "{name:<44} {:>9} {:>8.2} {:>8.2} {:>10.2} {:>8.2} {:>8.2} {:>9.2}",
-            wall.count,
-            wall.percentile(0.5),
-            wall.percentile(0.9999),
-            wall.worst as f64 * 1e-3,
-            processor.percentile(0.5),
-            processor.percentile(0.9999),
-            processor.worst as f64 * 1e-3
-        );
+    fn tell(&self, name: &str, rows: &mut Vec<readme::Row>) {
+        let [wall, processor] = [&self.wall, &self.processor].map(|d| {
+            let worst = d.worst as f64 * 1e-3;
+            [d.percentile(0.5), d.percentile(0.9999), worst]
+        });
+        let columns = wall.iter().chain(&processor).map(|x| format!("{x:>9.2}"));
+        let columns: String = columns.collect();
+        eprintln!("{name:<66}{:>9}{columns}", self.wall.count);
+        rows.push(readme::Row {
+            name: name.to_owned(),
+            steps: self.wall.count,
+            microseconds: processor,
+        });
     }
 }
 
@@ -143,7 +151,7 @@ fn variables(drive: Drive) -> ((u32, u32), f64) {
     }
 }
 
-fn run(name: &str, resources: &Resources, (drive, share): (Drive, f64), steps: usize) {
+fn run(resources: &Resources, (drive, share): (Drive, f64), steps: usize) -> Clocks {
     let unit = Unit::stepping(resources, drive);
     let (variables, scale) = variables(drive);
     let mut durations = Clocks::new();
@@ -152,11 +160,11 @@ fn run(name: &str, resources: &Resources, (drive, share): (Drive, f64), steps: u
         let value = share * scale * load(i);
         durations.take(|| step(&unit, variables, value, i as f64 * size, size));
     }
-    durations.tell(name);
+    durations
 }
 
 /// Two turns within each step, by derivatives of the input: there, most of the way back, and on.
-fn turning(name: &str, resources: &Resources, (drive, share): (Drive, f64), steps: usize) {
+fn turning(resources: &Resources, (drive, share): (Drive, f64), steps: usize) -> Clocks {
     let unit = Unit::stepping(resources, drive);
     let (variables, scale) = variables(drive);
     let mut durations = Clocks::new();
@@ -176,19 +184,19 @@ fn turning(name: &str, resources: &Resources, (drive, share): (Drive, f64), step
         });
         from = to;
     }
-    durations.tell(name);
+    durations
 }
 
-/// The step that costs most by construction: every reversal beyond a full memory looks for the loop
-/// to forget, and one step out of it closes all loops.
-fn full_memory(drive: Drive, name: &str) {
+/// The steps that cost most by construction: a reversal within the memory; one beyond a full memory,
+/// which looks for the loop to forget; and the one out of it, which closes all loops.
+fn full_memory(drive: Drive, rounds: usize) -> [Clocks; 3] {
     let resources = Resources::new(BOLT);
     let unit = Unit::stepping(&resources, drive);
     let (variables, scale) = variables(drive);
     let (mut within, mut beyond, mut out) = (Clocks::new(), Clocks::new(), Clocks::new());
     let mut number = 0;
     let swings = 4 * TURNING_POINTS;
-    for _ in 0..20 {
+    for _ in 0..rounds {
         for i in 0..swings {
             let size = scale * (0.99 - 0.98 * i as f64 / swings as f64);
             let value = if i.is_multiple_of(2) { size } else { -size };
@@ -205,38 +213,61 @@ fn full_memory(drive: Drive, name: &str) {
         out.take(|| step(&unit, variables, scale, time, 1e-3));
         number += 1;
     }
-    within.tell(&format!("{name}, reversal within the memory"));
-    beyond.tell(&format!("{name}, reversal beyond a full memory"));
-    out.tell(&format!("{name}, out of a full memory at once"));
+    [within, beyond, out]
 }
 
 fn main() {
-    let divisor = std::env::args().find_map(|word| word.parse::<usize>().ok());
-    let steps = STEPS / divisor.unwrap_or(1).max(1);
-    println!(
-        "{:<44} {:>9} {:>8} {:>8} {:>10} {:>8} {:>8} {:>9}",
-        "[µs]", "steps", "median", "99.99 %", "worst", "median", "99.99 %", "worst"
+    let words: Vec<String> = std::env::args().collect();
+    let divisor = words.iter().find_map(|word| word.parse().ok());
+    let divisor = divisor.unwrap_or(1).max(1);
+    let steps = STEPS / divisor;
+    let machine = readme::Machine::now();
+    let mut rows = Vec::new();
+    eprintln!(
+        "{:<66}{:>9}{:>27}{:>27}",
+        "median, 99.99 %, worst [µs]", "steps", "wall clock", "processor time"
     );
-    println!("{:<54} {:<28} processor time", "", "wall clock");
-    let mut timer = Clocks::new();
+    let mut clock = Clocks::new();
     for _ in 0..steps / 10 {
-        timer.take(|| ());
+        clock.take(|| ());
     }
-    timer.tell("timer");
+    clock.tell("nothing but the clock", &mut rows);
     let (exact, two) = (Resources::new(BOLT), Resources::new(BOLT_WITH_CAUSES));
     let all = bolt_with_all_causes();
-    for (drive, name) in [
-        (Drive::Force, "force"),
-        (Drive::Displacement, "displacement"),
+    let drives = [
+        (Drive::Force, "by force"),
+        (Drive::Displacement, "by displacement"),
+    ];
+    // With every cause, below the force at which all of them together let the joint go.
+    for (name, resources, share, steps) in [
+        ("without causes", &exact, 1.0, steps),
+        ("two causes", &two, 1.0, steps),
+        ("all fifteen causes", &all, 0.6, steps / 10),
     ] {
-        run(&format!("exact, {name}"), &exact, (drive, 1.0), steps);
-        run(&format!("two causes, {name}"), &two, (drive, 1.0), steps);
-        // Below the force at which all of them together let the joint go.
-        let some = (drive, 0.6);
-        run(&format!("every cause, {name}"), &all, some, steps / 10);
-        let name = format!("every cause, two turns in a step, {name}");
-        turning(&name, &all, some, steps / 10);
+        for (drive, by) in drives {
+            let clocks = run(resources, (drive, share), steps);
+            clocks.tell(&format!("{name}, {by}"), &mut rows);
+        }
     }
-    full_memory(Drive::Force, "force");
-    full_memory(Drive::Displacement, "displacement");
+    for (drive, by) in drives {
+        let clocks = turning(&all, (drive, 0.6), steps / 10);
+        let name = format!("all, two turns within each step, {by}");
+        clocks.tell(&name, &mut rows);
+    }
+    for (drive, by) in drives {
+        let names = [
+            "reversal within the memory",
+            "reversal beyond a full memory",
+            "out of a full memory at once: 2048 loops close",
+        ];
+        let clocks = full_memory(drive, (20 / divisor).max(1));
+        for (name, clocks) in names.iter().zip(clocks) {
+            clocks.tell(&format!("without causes, {name}, {by}"), &mut rows);
+        }
+    }
+    let table = readme::table(&rows, &machine);
+    println!("{table}");
+    if words.iter().any(|word| word == "--readme") {
+        readme::write(&table);
+    }
 }

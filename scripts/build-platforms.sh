@@ -216,11 +216,11 @@ find_platform() {
 }
 
 # Joints without causes and with all of them, both drives, each step ending at a value or following
-# the input's derivatives: JOINT DRIVE WAY.
+# the input's derivatives, or ending at a value under the functions of FMI 3.0: JOINT DRIVE WAY.
 cases=()
 for joint_of_case in exact causes; do
     for drive in force displacement; do
-        for way in values slopes; do cases+=("$joint_of_case $drive $way"); done
+        for way in values slopes three; do cases+=("$joint_of_case $drive $way"); done
     done
 done
 declare -A guid_of
@@ -234,6 +234,7 @@ prepare_cases() {
         for name in exact causes; do
             place="$out/$name-$drive"
             "$IWAN" export "$tools/$name.json" --drive "$drive" -o "$place.fmu" "$@" 2>/dev/null
+            "$IWAN" export "$tools/$name.json" --drive "$drive" --fmi 3 -o "$place-3.fmu" "$@" 2>/dev/null
             guid_of[$name-$drive]=$("$PYTHON" -c 'import fmpy, sys; print(fmpy.read_model_description(sys.argv[1]).guid)' "$place.fmu")
             "$IWAN" simulate "$tools/$name.json" "$out/$drive.csv" --drive "$drive" -o "$place.csv" 2>/dev/null
             mkdir -p "$out/resources/$name"
@@ -242,19 +243,16 @@ prepare_cases() {
     done
 }
 
-# Sets `runner` to what runs a program of a platform, `host` to the program, and `root` to what stands
-# before a path; status 1 where this machine lacks something.
+# Sets `runner` to what runs a program of a platform, `host` to the program of FMI 2.0, `host3` to that
+# of FMI 3.0, and `root` to what stands before a path; status 1 where this machine lacks something.
 prepare_host() {
-    local platform=$1
-    runner=() host="$out/host-$platform" root=
+    local platform=$1 suffix= compiler=(cc) libraries=(-ldl)
+    runner=() root=
     case "$platform" in
-    linux64)
-        cc -O1 -o "$host" "$tools/host.c" -ldl
-        ;;
+    linux64) ;;
     win64)
         runner=("$(wine64_program)") || { ran[$platform]="not run here: wine64 is missing"; return 1; }
-        host="$host.exe" root="Z:"
-        x86_64-w64-mingw32-gcc -O1 -o "$host" "$tools/host.c"
+        suffix=.exe root="Z:" compiler=(x86_64-w64-mingw32-gcc) libraries=()
         export WINEPREFIX="$out/wine" WINEDEBUG=-all DISPLAY=
         ;;
     aarch64-linux)
@@ -262,15 +260,19 @@ prepare_host() {
         [ -e /usr/aarch64-linux-gnu/lib/ld-linux-aarch64.so.1 ] ||
             { ran[$platform]="not run here: libc6-arm64-cross is missing"; return 1; }
         runner=(qemu-aarch64 -L /usr/aarch64-linux-gnu)
-        "$zig/bin/python" -m ziglang cc -target aarch64-linux-gnu.2.17 -O1 -o "$host" "$tools/host.c" -ldl
+        compiler=("$zig/bin/python" -m ziglang cc -target aarch64-linux-gnu.2.17)
         ;;
     esac
+    host="$out/host-$platform$suffix" host3="$out/host3-$platform$suffix"
+    "${compiler[@]}" -O1 -o "$host" "$tools/host.c" ${libraries[@]+"${libraries[@]}"}
+    "${compiler[@]}" -O1 -o "$host3" "$tools/host3.c" ${libraries[@]+"${libraries[@]}"}
 }
 
 # The host of a platform, run on its library in every case; answers go to target/platforms/PLATFORM/.
-# linux64 is held against `iwan simulate` and, in the whole archive, fmpy; the others against linux64.
+# linux64 is held against `iwan simulate` and, in the whole archive, fmpy, and in FMI 3.0 against
+# itself in FMI 2.0; the others against linux64.
 run_platform() {
-    local platform=$1 library=${library_of[$1]} runner host root name drive way answers found by passed=0
+    local platform=$1 library=${library_of[$1]} runner host host3 program root name drive way answers found by passed=0
     prepare_host "$platform" || return 0
     [ "$platform" = linux64 ] || [ -d "$out/answers/linux64" ] ||
         { ran[$platform]="not run: compared with linux64, which was not asked for"; return 0; }
@@ -278,8 +280,12 @@ run_platform() {
     for case in "${cases[@]}"; do
         read -r name drive way <<<"$case"
         answers="$out/answers/$platform/$name-$drive-$way.txt"
-        if ! ${runner[@]+"${runner[@]}"} "$host" "$root$library" "$root$out/resources/$name" "${guid_of[$name-$drive]}" \
-            "${reference_of[$drive]}" "$out/$drive.txt" "$rows" "$way" >"$answers" 2>"$out/$platform-run.log"; then
+        program=("$host")
+        [ "$way" != three ] || program=("$host3")
+        program+=("$root$library" "$root$out/resources/$name" "${guid_of[$name-$drive]}" "${reference_of[$drive]}")
+        program+=("$out/$drive.txt" "$rows")
+        [ "$way" = three ] || program+=("$way")
+        if ! ${runner[@]+"${runner[@]}"} "${program[@]}" >"$answers" 2>"$out/$platform-run.log"; then
             tail -3 "$out/$platform-run.log" >&2
             ran[$platform]="FAILED ($case), see target/platforms/$platform-run.log"
             return 1
@@ -289,15 +295,17 @@ run_platform() {
         if [ "$platform" != linux64 ]; then
             by="${runner[0]##*/}, against linux64"
             found=$("$PYTHON" "$tools/load.py" compare "$out/answers/linux64/$name-$drive-$way.txt" "$answers")
+        elif [ "$way" = three ]; then
+            found=$("$PYTHON" "$tools/load.py" compare "${answers%-three.txt}-values.txt" "$answers")
         elif [ "$way" = values ]; then
-            by="a host in C, against iwan simulate and fmpy"
+            by="hosts in C, against iwan simulate and fmpy"
             found=$("$PYTHON" "$tools/load.py" against "$out/$name-$drive.csv" "$answers") && found=$(in_fmpy)
         else
             found=$(in_fmpy)
         fi || { ran[$platform]="FAILED under $by ($case): $found"; return 1; }
         passed=$((passed + 1))
     done
-    ran[$platform]="run by $by: $passed loads of $((rows - 1)) steps, 7 signals, bit-identical"
+    ran[$platform]="run by $by: $passed loads of $((rows - 1)) steps, FMI 2.0 and 3.0, 7 signals, bit-identical"
 }
 
 # The whole archive of a case in fmpy, against the host's answers.
@@ -308,15 +316,17 @@ in_fmpy() {
 
 # The archives of all that was built, by `iwan check`, which loads them through a crate of others.
 check_archives() {
-    local name drive count=0
+    local name drive version count=0
     for name in exact causes; do
         for drive in force displacement; do
-            "$IWAN" check "$out/$name-$drive.fmu" "$out/$name-$drive.csv" >"$out/check.log" 2>&1 ||
-                { checked="FAILED ($name, $drive), see target/platforms/check.log"; return 1; }
-            count=$((count + 1))
+            for version in "" -3; do
+                "$IWAN" check "$out/$name-$drive$version.fmu" "$out/$name-$drive.csv" >"$out/check.log" 2>&1 ||
+                    { checked="FAILED ($name-$drive$version), see target/platforms/check.log"; return 1; }
+                count=$((count + 1))
+            done
         done
     done
-    checked="iwan check: $count archives of ${#binaries[@]} libraries, no fault"
+    checked="iwan check: $count archives of FMI 2.0 and 3.0 of ${#binaries[@]} libraries, no fault"
 }
 
 platforms=(linux64 win64 aarch64-linux)

@@ -398,7 +398,7 @@ fn the_archive_tells_where_its_numbers_come_from() {
         "Verdict: <strong>explained</strong>",
         "0.250 (95 %: 0.200 … 0.300)",
         "a &lt;test&gt;, 2024-05-01T12:00:00Z",
-        "--stop-time 8 --step-size 0.02",
+        "--stop-time 8 --output-interval 0.02",
         "3.500000e0 … 4.500000e0",
         "below 5.000000e-1",
         "<code>joint_stiffness</code>: not bounded by the data",

@@ -25,6 +25,8 @@ mod messages;
 mod not_finite;
 #[path = "fmu/null_pointers.rs"]
 mod null_pointers;
+#[path = "fmu/refused_steps.rs"]
+mod refused_steps;
 #[path = "fmu/reversal.rs"]
 mod reversal;
 #[path = "fmu/states.rs"]

@@ -327,6 +327,13 @@ fn an_archive_whose_parts_disagree_is_refused() {
         let name = (DESCRIPTION, "name=\"dissipation\"", "name=\"loss\"");
         let told = refused(&folder, "name.fmu", name, NO_ENTRY);
         assert!(told.contains("variable loss: the joint has none"), "{told}");
+        let date = (
+            DESCRIPTION,
+            "variableNamingConvention",
+            "generationDateAndTime=\"yesterday\" variableNamingConvention",
+        );
+        let told = refused(&folder, "date.fmu", date, NO_ENTRY);
+        assert!(told.contains("came yesterday"), "{told}");
         // What `iwan` itself does not look at.
         let role = (
             DESCRIPTION,

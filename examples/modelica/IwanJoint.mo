@@ -43,7 +43,8 @@ package IwanJoint "An exported joint between two flanges"
 
   annotation (Documentation(info="<html>
 <p>Import the archive that <code>iwan export JOINT.json -o joint.fmu --drive displacement</code>
-wrote: most tools then make a block <code>IwanJoint_fmu</code> with input
+wrote, in a tool that imports co-simulation units as blocks (Dymola does, OpenModelica does not):
+most then make a block <code>IwanJoint_fmu</code> with input
 <code>displacement</code> and output <code>force</code>. Put its name where
 <code>Unit</code> is redeclared below, and <code>Joint</code> goes between two translational
 flanges like a spring.</p>

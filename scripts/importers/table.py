@@ -363,10 +363,13 @@ def main() -> int:
     table = Table(arguments.iwan, arguments.folder, arguments.quick)
     table.fill()
     day = datetime.datetime.now(datetime.UTC).date().isoformat()
+    describe = ["git", "-C", ROOT, "describe", "--always", "--dirty", "--exclude=*"]
+    commit = subprocess.run(describe, capture_output=True, text=True).stdout.strip()
     where = f"{platform.system()} {platform.machine()}, Python {platform.python_version()}"
     text = (
-        f"{table.markdown()}\n\nRun on {day} ({where}). Larger of both drives, in displacement and "
-        f"in force: largest difference to\n`iwan simulate` of the answer, dissipation and stored "
+        f"{table.markdown()}\n\nRun on {day} at commit {commit or 'unknown'} ({where}). Larger of "
+        f"both drives, in displacement and in force:\nlargest difference to `iwan simulate` of the "
+        f"answer, dissipation and stored "
         f"energy, relative to each one's largest value, over {ROWS - 1}\nsteps of a growing "
         f"two-tone load; processor time per step. With causes the last digit of a step's length "
         f"shows, which\neach importer works out in its own way. pythonfmu's is driven in "

@@ -11,27 +11,9 @@
  *
  * Output: per sample the bits of references 0 to 6. Exit status 0, or 1 with a message.
  */
-#include <inttypes.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "host.h"
 
-#ifdef _WIN32
-#include <windows.h>
-typedef HMODULE Library;
-static Library open_library(const char *path) { return LoadLibraryA(path); }
-static void *function_of(Library library, const char *name) {
-    return (void *)GetProcAddress(library, name);
-}
-#else
-#include <dlfcn.h>
-typedef void *Library;
-static Library open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *function_of(Library library, const char *name) { return dlsym(library, name); }
-#endif
-
-enum { SIGNALS = 7, ORDERS = 3, OK = 0, CO_SIMULATION = 1 };
+enum { CO_SIMULATION = 1 };
 
 typedef struct {
     void (*logger)(void *, const char *, int, const char *, const char *, ...);
@@ -41,33 +23,10 @@ typedef struct {
     void *environment;
 } Callbacks;
 
-static void stop(const char *what, const char *which) {
-    fprintf(stderr, "host: %s %s\n", what, which);
-    exit(1);
-}
-
 static void logger(void *environment, const char *instance, int status, const char *category,
                    const char *message, ...) {
     (void)environment;
     fprintf(stderr, "%s: %s (%d): %s\n", instance, category, status, message);
-}
-
-static Library library;
-static void *find(const char *name) {
-    void *found = function_of(library, name);
-    if (!found) stop("the library lacks", name);
-    return found;
-}
-
-static void expect(int status, const char *call) {
-    if (status != OK) stop("refused:", call);
-}
-
-static double number(const char *digits) {
-    uint64_t bits = strtoull(digits, NULL, 16);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
 }
 
 static void *instance(const char *name, const char *guid, const char *uri, Callbacks *callbacks) {
@@ -123,13 +82,8 @@ int main(int count, char **arguments) {
 
     const unsigned all[SIGNALS] = {0, 1, 2, 3, 4, 5, 6}, inputs[ORDERS] = {input, input, input};
     const int orders[ORDERS] = {1, 2, 3};
-    char digits[2 + ORDERS][32];
-    double before[2 + ORDERS];
-    for (long row = 0; fscanf(load, "%16s %16s %16s %16s %16s", digits[0], digits[1], digits[2],
-                              digits[3], digits[4]) == 2 + ORDERS;
-         row++) {
-        double now[2 + ORDERS], answers[SIGNALS];
-        for (int place = 0; place < 2 + ORDERS; place++) now[place] = number(digits[place]);
+    double before[SAMPLE], now[SAMPLE], answers[SIGNALS];
+    for (long row = 0; sample(load, now); row++) {
         if (row == 0) {
             expect(setup(unit, 0, 0.0, now[0], 0, 0.0), "fmi2SetupExperiment");
             expect(enter(unit), "fmi2EnterInitializationMode");
@@ -144,11 +98,7 @@ int main(int count, char **arguments) {
         }
         memcpy(before, now, sizeof before);
         expect(get(unit, all, SIGNALS, answers), "fmi2GetReal");
-        for (int signal = 0; signal < SIGNALS; signal++) {
-            uint64_t bits;
-            memcpy(&bits, &answers[signal], sizeof bits);
-            printf("%016" PRIx64 "%c", bits, signal + 1 < SIGNALS ? ' ' : '\n');
-        }
+        print(answers);
         if (row == half) {
             void *state = NULL;
             size_t size = 0;

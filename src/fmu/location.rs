@@ -27,10 +27,18 @@ pub enum LocationError {
 /// then raw as some hosts send it; a path, which FMI 3.0 asks for, raw, then as if it were encoded.
 ///
 /// Understood: `file:///p`, `file:////p`, `file:/p`, `file://localhost/p`, `/p`, each with or
-/// without a trailing slash, and `file:///C:/p`.
+/// without a trailing slash, and `file:///C:/p`; on Windows another machine's share, too,
+/// `file://machine/share/p`.
 pub fn folders(location: &str) -> Result<Vec<PathBuf>, LocationError> {
+    folders_on(location, cfg!(windows))
+}
+
+/// [`folders`] on a system that has shares of other machines in its paths, or not.
+fn folders_on(location: &str, has_shares: bool) -> Result<Vec<PathBuf>, LocationError> {
     let (path, is_uri) = match location.split_once(':') {
-        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => (path_of_uri(rest)?, true),
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
+            (path_of_uri(rest, has_shares)?, true)
+        }
         // A single letter is a drive of Windows, not a scheme.
         Some((scheme, _)) if scheme.len() > 1 && !scheme.contains(['/', '\\']) => {
             return Err(LocationError::Scheme {
@@ -51,12 +59,15 @@ pub fn folders(location: &str) -> Result<Vec<PathBuf>, LocationError> {
 }
 
 /// Path of what follows `file:`.
-fn path_of_uri(rest: &str) -> Result<&str, LocationError> {
+fn path_of_uri(rest: &str, has_shares: bool) -> Result<&str, LocationError> {
     let path = match rest.strip_prefix("//") {
         None => rest,
         Some(after) => {
             let (host, path) = after.split_at(after.find('/').unwrap_or(after.len()));
             if !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
+                if has_shares {
+                    return Ok(rest); // `//machine/share/p` is a path there
+                }
                 return Err(LocationError::Host {
                     host: host.to_owned(),
                 });
@@ -122,6 +133,23 @@ mod tests {
             PathBuf::from("C:/a/resources")
         );
         assert_eq!(first("C:/a/resources"), PathBuf::from("C:/a/resources"));
+    }
+
+    #[test]
+    fn a_share_of_another_machine_is_a_path_where_there_are_any() {
+        for location in ["file://rig/a b/resources", "file://rig/a%20b/resources"] {
+            let found = folders_on(location, true).unwrap();
+            assert_eq!(found[0], PathBuf::from("//rig/a b/resources"));
+            let host = "rig".into();
+            assert_eq!(
+                folders_on(location, false),
+                Err(LocationError::Host { host })
+            );
+        }
+        let four = folders_on("file:////rig/a/resources", true).unwrap();
+        assert_eq!(four, [PathBuf::from("//rig/a/resources")]);
+        let local = folders_on("file://localhost/C:/a/resources", true).unwrap();
+        assert_eq!(local, [PathBuf::from("C:/a/resources")]);
     }
 
     #[test]

@@ -75,7 +75,7 @@ pub enum Refusal {
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
     /// A reference that no variable has.
-    #[error("expected the reference of a {expected} variable, came {came}")]
+    #[error("expected the reference of a variable of type {expected}, came {came}")]
     UnknownReference { expected: &'static str, came: u32 },
     /// A variable that is not for setting.
     #[error("expected an input or, before the first step, a parameter; came {causality} `{name}`")]

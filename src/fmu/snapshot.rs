@@ -175,16 +175,16 @@ impl Snapshot {
         if flags > 0b11 {
             return Err(SnapshotError::Damaged { field: "flags" });
         }
-        let time = reader.number("time")?;
-        let stop = reader.number("stop time")?;
-        let input = reader.number("input")?;
+        let time = reader.finite("time")?;
+        let stop = reader.finite("stop time")?;
+        let input = reader.finite("input")?;
         let derivatives = [
-            reader.number("derivatives")?,
-            reader.number("derivatives")?,
-            reader.number("derivatives")?,
+            reader.finite("derivatives")?,
+            reader.finite("derivatives")?,
+            reader.finite("derivatives")?,
         ];
         let dissipation_rate = reader.number("dissipation rate")?;
-        let step = reader.number("step")?;
+        let step = reader.finite("step")?;
         let rates = Rates {
             force: reader.number("rates")?,
             displacement: reader.number("rates")?,
@@ -198,6 +198,11 @@ impl Snapshot {
         if !reader.0.is_empty() {
             return Err(SnapshotError::Damaged { field: "end" });
         }
+        let moves = flags & 2 != 0;
+        let must_move = matches!(mode, Mode::Stepping | Mode::Terminated);
+        if !moves && (must_move || !simulation.is_empty()) {
+            return Err(SnapshotError::Damaged { field: "flags" });
+        }
         Ok(Snapshot {
             guid,
             mode,
@@ -209,7 +214,7 @@ impl Snapshot {
             step,
             rates,
             parameters,
-            simulation: (flags & 2 != 0).then_some(simulation),
+            simulation: moves.then_some(simulation),
         })
     }
 }
@@ -229,6 +234,15 @@ impl Reader<'_> {
 
     fn number(&mut self, field: &'static str) -> Result<f64, SnapshotError> {
         self.take(field).map(f64::from_le_bytes)
+    }
+
+    /// A number that no host could have made infinite or none.
+    fn finite(&mut self, field: &'static str) -> Result<f64, SnapshotError> {
+        let number = self.number(field)?;
+        number
+            .is_finite()
+            .then_some(number)
+            .ok_or(SnapshotError::Damaged { field })
     }
 
     /// A list; its count is believed only as far as there are bytes.

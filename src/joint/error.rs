@@ -33,6 +33,14 @@ pub enum JointError {
         /// The value refused.
         value: f64,
     },
+    /// An input so large that the equation of the joint has no finite root.
+    #[error("input {value} at t = {time} s is beyond all that this joint can answer in numbers")]
+    OutOfReach {
+        /// Time [s].
+        time: f64,
+        /// The value refused.
+        value: f64,
+    },
     /// Time running back.
     #[error("time runs back from {from} s to {to} s")]
     TimeRunsBack {

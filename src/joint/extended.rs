@@ -154,10 +154,7 @@ impl Extended {
                     force: input,
                     full_slip,
                 },
-                _ => JointError::NotFinite {
-                    time,
-                    value: f64::NAN,
-                },
+                _ => JointError::OutOfReach { time, value: input },
             }
         })?;
         (self.limit, self.trials) = (limit, trials);

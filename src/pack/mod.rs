@@ -1,5 +1,6 @@
 //! The .fmu archive: modelDescription.xml, documentation, the joint, the shared libraries.
 
+mod date;
 mod display_unit;
 mod documentation;
 mod error;
@@ -14,6 +15,7 @@ pub mod terminals;
 mod unit;
 mod version;
 
+pub use date::date_time;
 pub use error::PackError;
 pub use experiment::Experiment;
 pub use library::{BUILD_COMMAND, Library, VARIABLE};

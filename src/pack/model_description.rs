@@ -2,10 +2,10 @@
 
 use super::display_unit::display_unit;
 use super::unit::base_unit;
-use super::{Experiment, FmiVersion, Nominal};
+use super::{Experiment, FmiVersion, Nominal, date_time};
 use crate::joint::{Drive, Joint};
 use crate::saved::{Provenance, SavedJoint};
-use crate::variables::{Causality, MODEL_IDENTIFIER, Variable, Variables};
+use crate::variables::{Causality, MODEL_IDENTIFIER, Place, Signal, Variable, Variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::collections::BTreeSet;
@@ -63,8 +63,8 @@ pub(super) fn root<'a>(
         ),
     ];
     // Of the joint, not of the export: the same joint gives the same archive.
-    let date = saved.provenance.date.iter();
-    root.extend(date.map(|date| ("generationDateAndTime", date.clone())));
+    let date = saved.provenance.date.as_deref().and_then(date_time);
+    root.extend(date.map(|date| ("generationDateAndTime", date)));
     root.push(("variableNamingConvention", "structured".to_owned()));
     root
 }
@@ -200,36 +200,58 @@ fn numbers<'a>(variable: &Variable, joint: &Joint, nominal: Nominal) -> Attribut
     real
 }
 
-/// Outputs and how they depend: on the input at the end of the step, as the directional derivatives
-/// have it, and in Initialization Mode on the input and every parameter.
-fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
-    let indices = |wanted: &[Causality]| -> Vec<String> {
-        let all = variables.iter().enumerate();
-        let chosen = all.filter(|(_, variable)| wanted.contains(&variable.causality));
-        chosen.map(|(index, _)| (index + 1).to_string()).collect()
-    };
-    let outputs = indices(&[Causality::Output]);
-    let input = indices(&[Causality::Input]).join(" ");
-    let knowns = indices(&[Causality::Input, Causality::Parameter]).join(" ");
-    within(writer, "ModelStructure", vec![], |writer| {
-        unknowns(writer, "Outputs", &outputs, &input)?;
-        unknowns(writer, "InitialUnknowns", &outputs, &knowns)
-    })
+/// One output and what it depends on, by numbers of variables as the version counts them.
+pub(super) struct Unknown {
+    pub(super) output: String,
+    /// At a communication point: the input at the end of the step, as the directional derivatives
+    /// have it.
+    pub(super) at_a_point: String,
+    /// In Initialization Mode: the input and every parameter; but no power has been lost over a
+    /// step yet, whatever they are.
+    pub(super) initial: String,
 }
 
-fn unknowns(
-    writer: &mut Writer<Vec<u8>>,
-    element: &str,
-    indices: &[String],
-    dependencies: &str,
-) -> Result<()> {
-    within(writer, element, vec![], |writer| {
-        indices.iter().try_for_each(|index| {
-            empty(
-                writer,
-                "Unknown",
-                owned(&[("index", index), ("dependencies", dependencies)]),
-            )
+/// All outputs; `number` counts a variable by its place in the list or by its reference.
+pub(super) fn unknowns(
+    variables: &Variables,
+    number: impl Fn(usize, &Variable) -> String,
+) -> Vec<Unknown> {
+    let numbers = |wanted: &[Causality]| -> String {
+        let all = variables.iter().enumerate();
+        let chosen = all.filter(|(_, variable)| wanted.contains(&variable.causality));
+        let numbers: Vec<_> = chosen.map(|(place, v)| number(place, v)).collect();
+        numbers.join(" ")
+    };
+    let input = numbers(&[Causality::Input]);
+    let knowns = numbers(&[Causality::Input, Causality::Parameter]);
+    let all = variables.iter().enumerate();
+    let outputs = all.filter(|(_, variable)| variable.causality == Causality::Output);
+    let unknown = |(place, output): (usize, &Variable)| Unknown {
+        output: number(place, output),
+        at_a_point: input.clone(),
+        initial: match output.place {
+            Place::Signal(Signal::DissipationRate) => String::new(),
+            _ => knowns.clone(),
+        },
+    };
+    outputs.map(unknown).collect()
+}
+
+fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
+    let all = unknowns(variables, |place, _| (place + 1).to_string());
+    type Dependencies = fn(&Unknown) -> &str;
+    let kinds: [(&str, Dependencies); 2] = [
+        ("Outputs", |unknown| &unknown.at_a_point),
+        ("InitialUnknowns", |unknown| &unknown.initial),
+    ];
+    within(writer, "ModelStructure", vec![], |writer| {
+        kinds.iter().try_for_each(|(element, dependencies)| {
+            within(writer, element, vec![], |writer| {
+                all.iter().try_for_each(|unknown| {
+                    let on = ("dependencies", dependencies(unknown));
+                    empty(writer, "Unknown", owned(&[("index", &unknown.output), on]))
+                })
+            })
         })
     })
 }

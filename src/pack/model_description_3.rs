@@ -1,12 +1,13 @@
 //! modelDescription.xml of FMI 3.0.
 
 use super::model_description::{
-    Attributes, default_experiment, empty, log_categories, of_variable, owned, root, units, within,
+    Attributes, default_experiment, empty, log_categories, of_variable, owned, root, units,
+    unknowns, within,
 };
 use super::{FmiVersion, Nominal};
 use crate::joint::Drive;
 use crate::saved::SavedJoint;
-use crate::variables::{Causality, MODEL_IDENTIFIER, TIME_REFERENCE, Variables};
+use crate::variables::{MODEL_IDENTIFIER, TIME_REFERENCE, Variables};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io::Result;
@@ -85,24 +86,17 @@ fn time() -> Attributes<'static> {
 
 /// Outputs and how they depend, as in FMI 2.0.
 fn structure(writer: &mut Writer<Vec<u8>>, variables: &Variables) -> Result<()> {
-    let references = |wanted: &[Causality]| -> Vec<String> {
-        let chosen = variables
-            .iter()
-            .filter(|variable| wanted.contains(&variable.causality));
-        chosen
-            .map(|variable| variable.reference.to_string())
-            .collect()
+    let all = unknowns(variables, |_, variable| variable.reference.to_string());
+    let write = |writer: &mut _, element, output: &str, on: &str| {
+        let attributes = [("valueReference", output), ("dependencies", on)];
+        empty(writer, element, owned(&attributes))
     };
-    let outputs = references(&[Causality::Output]);
-    let input = references(&[Causality::Input]).join(" ");
-    let knowns = references(&[Causality::Input, Causality::Parameter]).join(" ");
     within(writer, "ModelStructure", vec![], |writer| {
-        for (element, dependencies) in [("Output", &input), ("InitialUnknown", &knowns)] {
-            for output in &outputs {
-                let attributes = [("valueReference", output), ("dependencies", dependencies)];
-                let attributes = attributes.map(|(name, value)| (name, value.clone()));
-                empty(writer, element, attributes.into())?;
-            }
+        for unknown in &all {
+            write(writer, "Output", &unknown.output, &unknown.at_a_point)?;
+        }
+        for unknown in &all {
+            write(writer, "InitialUnknown", &unknown.output, &unknown.initial)?;
         }
         Ok(())
     })

@@ -157,10 +157,10 @@ fn what_has_no_derivative_is_refused() {
         SERIES_STIFFNESS,
         "reference of the input, came 100",
     );
-    refused(DISPLACEMENT, 77, "Real variable, came 77");
+    refused(DISPLACEMENT, 77, "type Real, came 77");
     refused(FORCE, FORCE, "reference of an output, came 0");
     refused(SERIES_STIFFNESS, FORCE, "reference of an output, came 100");
-    refused(99, FORCE, "Real variable, came 99");
+    refused(99, FORCE, "type Real, came 99");
     refused(TANGENT, FORCE, "`tangent_stiffness` has no derivative");
     assert!(
         rates(&unit, &[DISPLACEMENT, FORCE], 1)
@@ -241,6 +241,50 @@ fn output_derivatives_follow_the_input_polynomial() {
     let power = rates(&unit, &[DISSIPATION, DISSIPATION_RATE], 1).unwrap();
     let mean = unit.get(&[DISSIPATION_RATE])[0];
     assert!((power[1] - 2.0 * (power[0] - mean) / 0.2).abs() <= 1e-12 * power[1].abs());
+}
+
+/// Where the input turns within a step, the derivative is that over the input at the step's end, with
+/// the turning value held: that of a step which goes a little further along the same polynomial.
+#[test]
+fn behind_a_turn_within_the_step_derivatives_are_those_at_its_end() {
+    let resources = Resources::new(BOLT);
+    for (drive, input, output, scale) in [
+        (Drive::Force, FORCE, DISPLACEMENT, 1.0),
+        (Drive::Displacement, DISPLACEMENT, FORCE, 1e-7),
+    ] {
+        let unit = Unit::stepping(&resources, drive);
+        unit.ok(unit.set(input, 300.0 * scale));
+        unit.ok(unit.step(0.0, 0.1));
+        // Up to 400 after 0.05 s, and down to 200 at 0.12 s.
+        let (first, second) = (4000.0 * scale, -80000.0 * scale);
+        derive(&unit, input, [first, second, 0.0]);
+        let answers = [output, DISSIPATION, STORED_ENERGY, SLIP];
+        let state = unit.save();
+        let further = |size: f64| {
+            unit.ok(unsafe { fmi2SetFMUstate(unit.handle, state) });
+            unit.ok(unit.step(0.1, size));
+            unit.get(&answers)
+        };
+        let (size, more) = (0.12, 1e-7);
+        let (before, behind) = (further(size - more), further(size + more));
+        further(size);
+        let rate = first + second * size;
+        let over_input = slopes(&unit, &answers, input).unwrap();
+        let over_time = rates(&unit, &answers, 1).unwrap();
+        for place in 0..answers.len() {
+            let quotient = (behind[place] - before[place]) / (2.0 * more);
+            let close = |found: f64, expected: f64| {
+                assert!(
+                    (found - expected).abs() <= 1e-6 * expected.abs(),
+                    "{drive:?}, answer {}: {found} {expected}",
+                    answers[place]
+                );
+            };
+            close(over_time[place], quotient);
+            close(over_input[place] * rate, quotient);
+        }
+        unit.free_state(state);
+    }
 }
 
 #[test]

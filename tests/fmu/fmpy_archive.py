@@ -1,7 +1,9 @@
 """What fmpy's validation does not see in an archive: see `CHECKS`."""
 
+import html
 import re
 import subprocess
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -236,6 +238,7 @@ def experiment_runs_forward(archive: Path) -> None:
 
 def structure_names_every_output(archive: Path) -> None:
     root = read(archive)
+    names = [variable["name"] for variable, _ in reals(root)]
     causalities = [variable["causality"] for variable, _ in reals(root)]
     outputs = [i + 1 for i, causality in enumerate(causalities) if causality == "output"]
     for element in ("Outputs", "InitialUnknowns"):
@@ -243,9 +246,31 @@ def structure_names_every_output(archive: Path) -> None:
         assert [int(unknown.get("index")) for unknown in unknowns] == outputs, element
         for unknown in unknowns:
             dependencies = unknown.get("dependencies").split()
+            assert "dependenciesKind" not in unknown.attrib
+            name = names[int(unknown.get("index")) - 1]
+            if (element, name) == ("InitialUnknowns", "dissipation_rate"):
+                assert dependencies == [], "no step, no power"
+                continue
             assert causalities[int(dependencies[0]) - 1] == "input", element
             assert all(1 <= int(index) <= len(causalities) for index in dependencies)
-            assert "dependenciesKind" not in unknown.attrib
+
+
+def the_command_on_the_page_takes_the_steps_that_it_names(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as content:
+        page = content.read("documentation/index.html").decode()
+    (command,) = re.findall(r"<code>fmpy (simulate [^<]*)</code>", page)
+    words = html.unescape(command).split()
+    experiment = read(archive).find("DefaultExperiment").attrib
+    stop, step = (float(experiment[name]) for name in ("stopTime", "stepSize"))
+    inputs = [v["name"] for v, _ in reals(read(archive)) if v["causality"] == "input"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "joint.fmu").write_bytes(archive.read_bytes())
+        (folder / "load.csv").write_text(f"time,{inputs[0]}\n0,0\n{stop!r},0\n")
+        program = "import sys; from fmpy.cli import main; sys.exit(main())"
+        subprocess.run([sys.executable, "-c", program, *words], cwd=folder, check=True)
+        rows = (folder / "out.csv").read_text().splitlines()[1:]
+    assert abs(len(rows) - 1 - stop / step) < 1.5, (len(rows), stop, step)
 
 
 def guid_is_written_in_full(archive: Path) -> None:
@@ -270,5 +295,6 @@ CHECKS = [
     the_xml_is_valid_by_the_schema,
     experiment_runs_forward,
     structure_names_every_output,
+    the_command_on_the_page_takes_the_steps_that_it_names,
     guid_is_written_in_full,
 ]

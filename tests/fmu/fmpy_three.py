@@ -250,7 +250,7 @@ def what_is_not_offered_is_refused_and_told(pair: Pair) -> None:
         fmu = slave.fmu
         size = ctypes.c_size_t()
         refused(fmu.enterEventMode, slave, "fmi3EnterEventMode", "hasEventMode")
-        refused(lambda: fmu.getInt32([1]), slave, "fmi3GetInt32", "Int32 variable, came 1")
+        refused(lambda: fmu.getInt32([1]), slave, "fmi3GetInt32", "type Int32, came 1")
         refused(
             lambda: fmu.fmi3GetNumberOfContinuousStates(fmu.component, ctypes.byref(size)),
             slave,
@@ -258,7 +258,7 @@ def what_is_not_offered_is_refused_and_told(pair: Pair) -> None:
             "model exchange",
         )
         refused(lambda: fmu.doStep(0.0, math.nan), slave, "fmi3DoStep", "communicationStepSize")
-        refused(lambda: fmu.getFloat64([4711]), slave, "fmi3GetFloat64", "Float64 variable")
+        refused(lambda: fmu.getFloat64([4711]), slave, "fmi3GetFloat64", "type Float64")
         refused(lambda: fmu.setFloat64([99], [1.0]), slave, "fmi3SetFloat64", "`time`")
         refused(lambda: fmu.enterInitializationMode(), slave, "fmi3EnterInit", "came in mode")
         fmu.doStep(0.0, 0.0)

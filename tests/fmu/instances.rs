@@ -1,6 +1,7 @@
 //! Instantiation, resource locations, NULL handles, many instances.
 
 use super::host::*;
+use super::three_host::Three;
 use iwan::fmu::*;
 use iwan::joint::{Drive, Simulation};
 use std::ffi::CString;
@@ -79,11 +80,22 @@ fn a_damaged_joint_is_told_with_its_place() {
     }
 }
 
+/// As a URI has it: what is no letter, digit or slash of ASCII by the bytes of UTF-8.
+fn encoded(path: &str) -> String {
+    let kept = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._".contains(&byte);
+    let each = path.bytes().map(|byte| match byte {
+        byte if kept(byte) => char::from(byte).to_string(),
+        byte => format!("%{byte:02X}"),
+    });
+    each.collect()
+}
+
 #[test]
 fn every_form_of_the_location_is_understood() {
-    let resources = Resources::named(BOLT, "res with space & 100%");
+    let resources = Resources::named(BOLT, "res with space & 100% prüf 関節");
     let raw = resources.folder.display().to_string();
-    let encoded = raw.replace('%', "%25").replace(' ', "%20");
+    let encoded = encoded(&raw);
+    let token = iwan::variables::guid(BOLT, Drive::Force);
     for location in [
         format!("file://{encoded}"),
         format!("file://{encoded}/"),
@@ -102,6 +114,9 @@ fn every_form_of_the_location_is_understood() {
         };
         let location = call.location.clone();
         assert!(call.call().is_ok(), "{location:?}");
+        let text = location.unwrap().into_string().unwrap();
+        let three = Three::try_new(&resources, &token, Some(&text), false);
+        assert!(three.is_ok(), "FMI 3.0: {text}");
     }
 }
 

@@ -38,7 +38,7 @@ fn of_each_pointer<U: Hosted>() {
                         assert_eq!(status, Status::Error, "{what}");
                         let by_mode = row.allowed.is_empty();
                         // Where no variable is of a type, that is told whatever the values are.
-                        let known = told.contains("NULL") || told.contains(" variable, came ");
+                        let known = told.contains("NULL") || told.contains(" variable of type ");
                         assert!(by_mode || known, "{what}");
                     }
                 }

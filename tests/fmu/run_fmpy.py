@@ -36,6 +36,18 @@ BOLT = {
     },
     "series_stiffness": 4e7,
     "causes": [],
+    "provenance": {
+        "date": "2024-05-01",  # as hands write it
+        "records": [
+            {
+                "name": "bolt.csv",
+                "samples": 2001,
+                "sha256": "0" * 64,
+                "duration": 2.0,
+                "sample_interval": 1e-3,
+            }
+        ],
+    },
 }
 CAUSES = [
     {

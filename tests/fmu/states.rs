@@ -124,6 +124,16 @@ fn damaged_bytes_are_refused() {
     assert!(told(spoil(20, b'?')).contains("expected one of joint"));
     assert!(told(spoil(56, 77)).contains("mode is damaged"));
     assert!(told(spoil(57, 0xff)).contains("flags is damaged"));
+    // A joint in Step Mode that does not move would answer zero to everything, and say OK.
+    assert_eq!(bytes[57], 0b10);
+    assert!(told(spoil(57, 0)).contains("flags is damaged"));
+    // Time, input and its first derivative that are no numbers: 0x7ff8….
+    for (place, field) in [(58, "time"), (74, "input"), (82, "derivatives")] {
+        let mut spoiled = bytes.clone();
+        spoiled[place..place + 8].copy_from_slice(&f64::NAN.to_le_bytes());
+        let damaged = format!("{field} is damaged");
+        assert!(told(spoiled).contains(&damaged), "{damaged}");
+    }
     assert!(told(spoil(177, 0xff)).contains("parameters is damaged"));
     unit.free_state(state);
 }

@@ -78,11 +78,14 @@ fn wrong_counts_references_and_pointers_are_refused() {
         three.error(fmi3GetFloat64(handle, ptr::null(), 1, &mut value, 1));
         three.error(fmi3GetFloat64(handle, &DISPLACEMENT, 1, ptr::null_mut(), 1));
         let told = three.error(fmi3GetFloat64(handle, &4711, 1, &mut value, 1));
-        assert!(told.contains("Float64 variable, came 4711"), "{told}");
+        assert!(
+            told.contains("variable of type Float64, came 4711"),
+            "{told}"
+        );
         let told = three.error(fmi3SetFloat64(handle, &TIME_REFERENCE, 1, &1.0, 1));
         assert!(told.contains("independent `time`"), "{told}");
         let told = three.error(fmi3GetString(handle, &1, 1, ptr::null_mut(), 1));
-        assert!(told.contains("String variable, came 1"), "{told}");
+        assert!(told.contains("variable of type String, came 1"), "{told}");
         let (known, unknown) = (&FORCE, &DISPLACEMENT);
         let slope = |seeds, slopes, place: *mut f64| {
             fmi3GetDirectionalDerivative(handle, unknown, 1, known, 1, &1.0, seeds, place, slopes)

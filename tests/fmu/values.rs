@@ -40,12 +40,30 @@ fn variables_of_other_types_are_refused() {
     let told = |status| unit.error(status);
     unsafe {
         let mut number = 7;
-        assert!(told(fmi2GetInteger(handle, &FORCE, 1, &mut number)).contains("Integer"));
-        assert!(told(fmi2GetBoolean(handle, &FORCE, 1, &mut number)).contains("Boolean"));
-        assert!(told(fmi2GetString(handle, &FORCE, 1, &mut ptr::null())).contains("String"));
-        assert!(told(fmi2SetInteger(handle, &FORCE, 1, &1)).contains("Integer"));
-        assert!(told(fmi2SetBoolean(handle, &FORCE, 1, &1)).contains("Boolean"));
-        assert!(told(fmi2SetString(handle, &FORCE, 1, &c"".as_ptr())).contains("String"));
+        assert!(
+            told(fmi2GetInteger(handle, &FORCE, 1, &mut number))
+                .contains("a variable of type Integer, came 0")
+        );
+        assert!(
+            told(fmi2GetBoolean(handle, &FORCE, 1, &mut number))
+                .contains("a variable of type Boolean, came 0")
+        );
+        assert!(
+            told(fmi2GetString(handle, &FORCE, 1, &mut ptr::null()))
+                .contains("a variable of type String, came 0")
+        );
+        assert!(
+            told(fmi2SetInteger(handle, &FORCE, 1, &1))
+                .contains("a variable of type Integer, came 0")
+        );
+        assert!(
+            told(fmi2SetBoolean(handle, &FORCE, 1, &1))
+                .contains("a variable of type Boolean, came 0")
+        );
+        assert!(
+            told(fmi2SetString(handle, &FORCE, 1, &c"".as_ptr()))
+                .contains("a variable of type String, came 0")
+        );
         assert_eq!(number, 7);
     }
 }

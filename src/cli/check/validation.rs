@@ -1,7 +1,7 @@
 //! What an archive says of itself, held against the joint in it: what importers' own checks miss.
 
 use crate::joint::Joint;
-use crate::pack::{FmiVersion, Library, PackError, Platform};
+use crate::pack::{FmiVersion, Library, PackError, Platform, date_time};
 use crate::variables::{MODEL_IDENTIFIER, Variables};
 use fmi_rs::model_description::{ModelDescriptionError, ValidationError, fmi2, fmi3};
 use quick_xml::events::{BytesStart, Event};
@@ -172,6 +172,12 @@ fn interface(elements: &Elements, faults: &mut Vec<String>) {
         let came = identifier.map_or("none", String::as_str);
         faults.push(format!(
             "model identifier: expected {MODEL_IDENTIFIER}, came {came}"
+        ));
+    }
+    let date = of("fmiModelDescription").and_then(|root| root.1.get("generationDateAndTime"));
+    if let Some(date) = date.filter(|date| date_time(date).as_ref() != Some(date)) {
+        faults.push(format!(
+            "generationDateAndTime: expected a date and time such as 2024-05-01T12:00:00Z, came {date}"
         ));
     }
     for attribute in ["stopTime", "stepSize"] {

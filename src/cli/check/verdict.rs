@@ -197,25 +197,19 @@ fn steps_text(steps: &Steps) -> String {
     }
     let judged = &steps.judged;
     let limit = 100.0 * TOO_COARSE;
+    let (step, origin, suffers) = (judged.step, &judged.origin, suffers(judged.lost));
     if steps.too_coarse() {
         text += &format!(
-            "A step of {:.6e} s ({}) is TOO COARSE for this record: {:.2} % of the dissipation is \
-             lost.\n",
-            judged.step,
-            judged.origin,
-            100.0 * judged.lost
+            "A step of {step:.6e} s ({origin}) is TOO COARSE for this record: {suffers}.\n"
         );
         text += &match steps.advised {
-            Some(step) => format!("Take {step:.6e} s or less: at most {limit} % is lost.\n"),
-            None => format!("No step tried loses less than {limit} %: sample the load finer.\n"),
+            Some(step) => format!("Take {step:.6e} s or less: it is off by at most {limit} %.\n"),
+            None => format!("No step tried is within {limit} %: sample the load finer.\n"),
         };
     } else {
         text += &format!(
-            "A step of {:.6e} s ({}) is fine enough: {:.2} % of the dissipation is lost, at most \
-             {limit} % is let pass.\n",
-            judged.step,
-            judged.origin,
-            100.0 * judged.lost
+            "A step of {step:.6e} s ({origin}) is fine enough: {suffers}, at most {limit} % is let \
+             pass.\n"
         );
     }
     if steps.record_too_coarse() {
@@ -223,6 +217,16 @@ fn steps_text(steps: &Steps) -> String {
                  them these shares, are a guess.\n";
     }
     text
+}
+
+/// What a share that is lost, or gained where it is negative, means for the dissipation.
+fn suffers(lost: f64) -> String {
+    let share = 100.0 * lost.abs();
+    if lost < 0.0 {
+        format!("{share:.2} % too much is dissipated")
+    } else {
+        format!("{share:.2} % of the dissipation is lost")
+    }
 }
 
 fn steps_json(steps: &Steps) -> Value {
@@ -242,4 +246,16 @@ fn steps_json(steps: &Steps) -> Value {
         "too_coarse": steps.too_coarse(), "advised_step": steps.advised,
         "record_too_coarse": steps.record_too_coarse(), "effects": effects,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::suffers;
+
+    /// Damping that follows the last step may gain as well as lose.
+    #[test]
+    fn what_is_gained_is_not_called_lost() {
+        assert_eq!(suffers(0.0123), "1.23 % of the dissipation is lost");
+        assert_eq!(suffers(-0.0123), "1.23 % too much is dissipated");
+    }
 }

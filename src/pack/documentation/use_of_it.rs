@@ -37,12 +37,13 @@ pub fn section(page: &mut String, version: FmiVersion, drive: Drive, provenance:
         page,
         "<ul>\n\
          <li>fmpy: <code>fmpy simulate joint.fmu --interface-type CoSimulation --input-file \
-         load.csv --stop-time {stop_time} --step-size {step_size} --output-file out.csv</code>; \
+         load.csv --stop-time {stop_time} --output-interval {step_size} --output-file out.csv</code>; \
          the column of the load is <code>{input}</code></li>\n\
-         <li>Simulink: block <em>FMU</em>, Mode <em>Co-Simulation</em>, communication step \
-         {step_size} s; parameters are in the block's dialog</li>\n\
-         <li>Modelica tools: import the FMU, connect <code>{input}</code> to the output of a \
-         block; a driven joint between two flanges takes <code>--drive displacement</code></li>\n\
+         <li>Simulink: block <em>FMU</em>, communication step {step_size} s, a multiple of the \
+         solver's; parameters are in the block's dialog</li>\n\
+         <li>Modelica tools that import co-simulation units: connect <code>{input}</code> to the \
+         output of a block; a joint between two flanges takes <code>--drive displacement</code>\
+         </li>\n\
          <li>Rigs: one instance per joint; a step has no file access and no lock; parameters \
          before the start</li>\n</ul>\n\
          <p>The complete state can be saved, put back, serialized and continued in another \
