@@ -136,9 +136,10 @@ impl Problem {
     ) -> Prediction {
         let record = &self.records[k];
         let (measured, _) = self.channels(k);
-        let (input_place, judged_place) = match self.operators.form {
-            Form::Play => (Place::ForceChannel, Place::DisplacementChannel),
-            Form::Stop => (Place::DisplacementChannel, Place::ForceChannel),
+        let judged_place = self.judged_place();
+        let input_place = match self.operators.form {
+            Form::Play => Place::ForceChannel,
+            Form::Stop => Place::DisplacementChannel,
         };
         let corrected = effects.iter().any(|a| a.effect.place() == input_place);
         let mut input = measured.to_vec();
@@ -188,6 +189,53 @@ impl Problem {
         (0..self.records.len())
             .into_par_iter()
             .map(|k| self.marched(k, (coefficients, effects, Cells::Weighted), |_, _, _| {}))
+            .collect()
+    }
+
+    /// The channel of a form that is judged, as a place where effects act.
+    pub(super) fn judged_place(&self) -> Place {
+        match self.operators.form {
+            Form::Play => Place::DisplacementChannel,
+            Form::Stop => Place::ForceChannel,
+        }
+    }
+
+    /// The judged channels of a model that differs from the one which gave `at` by its effects on the
+    /// judged channel alone: its march is the same.
+    pub(super) fn remeasured(&self, at: &[Prediction], effects: &[Acting]) -> Vec<Vec<f64>> {
+        let place = self.judged_place();
+        let judged = |prediction: &Prediction| {
+            let truth = &prediction.truth;
+            let mut judged = match self.operators.form {
+                Form::Play => truth.displacement.clone(),
+                Form::Stop => truth.force.clone(),
+            };
+            if let Some(added) = added(effects, place, truth) {
+                judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
+            }
+            judged
+        };
+        at.par_iter().map(judged).collect()
+    }
+
+    /// What the judged channels of `at` gain by other effects, of which those at the place of the one
+    /// `changed` alone differ.
+    pub(super) fn gained(
+        &self,
+        (coefficients, at): (&[f64], &[Prediction]),
+        effects: &[Acting],
+        changed: Place,
+    ) -> Vec<Vec<f64>> {
+        let judged = match changed == self.judged_place() {
+            true => self.remeasured(at, effects),
+            false => {
+                let predictions = self.predict(coefficients, effects).into_iter();
+                predictions.map(|p| p.judged).collect()
+            }
+        };
+        let pairs = judged.iter().zip(at);
+        pairs
+            .map(|(new, old)| new.iter().zip(&old.judged).map(|(x, y)| x - y).collect())
             .collect()
     }
 

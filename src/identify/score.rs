@@ -3,8 +3,9 @@
 
 use super::fit::Fit;
 use super::nonnegative::Normal;
-use super::problem::{Problem, Weighing};
+use super::problem::{Prediction, Problem, Weighing};
 use super::rows::Rows;
+use super::slopes::{Slope, slopes};
 use super::summed::Summed;
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
@@ -20,35 +21,49 @@ pub struct Score {
 }
 
 /// Effects whose columns are held in memory at a time, and share one pass of the dictionary.
-const BATCH: usize = 12;
+const BATCH: usize = 32;
+
+/// The current model, with what every batch needs of it.
+struct Current<'a> {
+    fit: &'a Fit,
+    acting: Vec<Acting>,
+    at: Vec<Prediction>,
+    slopes: Vec<Slope>,
+}
 
 /// Scores every starting shape against the current model.
 pub fn scores(problem: &Problem, current: &Fit, starts: &[Acting]) -> Vec<Score> {
+    let acting = current.acting();
+    let at = problem.predict(&current.coefficients, &acting);
+    let current = Current {
+        fit: current,
+        slopes: slopes(problem, &current.coefficients, &acting, &at),
+        acting,
+        at,
+    };
     let batches = starts.par_chunks(BATCH);
     batches
-        .flat_map_iter(|batch| score_batch(problem, current, batch))
+        .flat_map_iter(|batch| score_batch(problem, &current, batch))
         .collect()
 }
 
-fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score> {
+fn score_batch(problem: &Problem, current: &Current, batch: &[Acting]) -> Vec<Score> {
+    let Current {
+        fit,
+        acting,
+        at,
+        slopes,
+    } = current;
     let records = problem.records.len();
     let columns = problem.operators.columns();
-    let acting = current.acting();
     let held: usize = acting.iter().map(|a| a.values.len()).sum();
     let size = columns + records + held;
-    let at = problem.predict(&current.coefficients, &acting);
-    let derivatives = super::slopes::slopes(problem, &current.coefficients, &acting, &at);
     let extras: Vec<Vec<Vec<f64>>> = batch
         .iter()
         .map(|tried| {
             let mut effects = acting.clone();
             effects.push(tried.clone());
-            problem
-                .predict(&current.coefficients, &effects)
-                .iter()
-                .zip(&at)
-                .map(|(a, b)| a.judged.iter().zip(&b.judged).map(|(x, y)| x - y).collect())
-                .collect()
+            problem.gained((&fit.coefficients, at), &effects, tried.effect.place())
         })
         .collect();
     let all = size + batch.len();
@@ -60,17 +75,17 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
             let mut row = vec![0.0; all + 1];
             let mut rows = Rows::default();
             let mut summed = Summed::new(all);
-            problem.pass(k, &current.coefficients, &acting, |i, march, step| {
+            problem.pass(k, &fit.coefficients, acting, |i, march, step| {
                 rows.next(march, step, &mut row[..columns]);
                 let Some(i) = i else { return };
                 row[columns + k] = 1.0;
-                for (value, slope) in row[columns + records..size].iter_mut().zip(&derivatives) {
+                for (value, slope) in row[columns + records..size].iter_mut().zip(slopes) {
                     *value = slope.values[k][i];
                 }
                 for (value, extra) in row[size..].iter_mut().zip(&extras) {
                     *value = extra[k][i];
                 }
-                row[all] = measured[i] - at[k].judged[i] - current.offsets[k];
+                row[all] = measured[i] - at[k].judged[i] - fit.offsets[k];
                 if let Some(white) = weighing.weigh(i, &row) {
                     summed.add(white);
                 }
@@ -90,7 +105,7 @@ fn score_batch(problem: &Problem, current: &Fit, batch: &[Acting]) -> Vec<Score>
     // Unknowns are moves away from the current fit, where the gradient over its positive
     // coefficients vanishes: only those may move freely, the others stay at zero.
     let free: Vec<usize> = (0..size)
-        .filter(|&i| i >= columns || current.coefficients[i] > 0.0)
+        .filter(|&i| i >= columns || fit.coefficients[i] > 0.0)
         .filter(|&i| common.gram[i * size + i] > 0.0)
         .collect();
     batch

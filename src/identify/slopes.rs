@@ -43,12 +43,8 @@ pub(super) fn slopes(
             }
             let mut shifted = effects.to_vec();
             shifted[e].values[p] = value + unit;
-            let values: Vec<Vec<f64>> = problem
-                .predict(coefficients, &shifted)
-                .iter()
-                .zip(at)
-                .map(|(a, b)| a.judged.iter().zip(&b.judged).map(|(x, y)| x - y).collect())
-                .collect();
+            let place = acting.effect.place();
+            let values = problem.gained((coefficients, at), &shifted, place);
             if values.iter().flatten().any(|v| *v != 0.0) {
                 slopes.push(Slope {
                     effect: e,
