@@ -23,7 +23,7 @@ pub mod seed;
 pub mod series;
 mod slopes;
 mod strides;
-mod summed;
+pub mod summed;
 pub mod table;
 mod walk;
 

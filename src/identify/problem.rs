@@ -220,7 +220,7 @@ impl Problem {
 
     /// What the judged channels of `at` gain by other effects, of which those at the place of the one
     /// `changed` alone differ.
-    pub(super) fn gained(
+    pub fn gained(
         &self,
         (coefficients, at): (&[f64], &[Prediction]),
         effects: &[Acting],

@@ -8,7 +8,7 @@ use pulp::{Arch, NullaryFnOnce};
 const TOGETHER: usize = 4;
 
 /// Normal equations in the making.
-pub(super) struct Summed {
+pub struct Summed {
     arch: Arch,
     normal: Normal,
     /// Rows that wait, each with its target behind it.

@@ -8,6 +8,7 @@ use crate::causes::{Cause, Scale};
 use crate::identify::nonnegative::Normal;
 use crate::identify::problem::Weighing;
 use crate::identify::rows::Rows;
+use crate::identify::summed::Summed;
 use crate::identify::{Prediction, Problem};
 use crate::joint::effect::Acting;
 
@@ -44,15 +45,16 @@ impl Shape {
         matches!((sizes.next(), sizes.next()), (Some(true), None))
     }
 
-    /// Parameters that get a column of their own: all but the first that carries the size.
+    /// Parameters that get a column of their own: all but the first that carries the size, and refinements
+    /// that this shape lacks.
     fn bends(&self) -> Vec<usize> {
         let parameters = self.acting.effect.parameters();
-        let values = self.acting.values.iter();
-        let size = parameters
-            .iter()
-            .zip(values)
-            .position(|(p, value)| p.vanishes_at.is_some_and(|zero| zero != *value));
-        (0..parameters.len()).filter(|p| Some(*p) != size).collect()
+        let values = &self.acting.values;
+        let mut both = parameters.iter().zip(values);
+        let size = both.position(|(p, value)| p.vanishes_at.is_some_and(|zero| zero != *value));
+        (0..parameters.len())
+            .filter(|&p| Some(p) != size && parameters[p].neutral != Some(values[p]))
+            .collect()
     }
 
     /// The effect with parameter `p` moved by a tenth.
@@ -110,26 +112,24 @@ pub fn shapes(
         .collect()
 }
 
-/// What the effect adds to the judged channel of every record.
+/// What the effect adds to the judged channel of every record. A signature that is no number is none: it
+/// would spoil every product it enters.
 pub fn signature(
     problem: &Problem,
     coefficients: &[f64],
     acting: &Acting,
     without: &[Prediction],
 ) -> Vec<Vec<f64>> {
-    problem
-        .predict(coefficients, std::slice::from_ref(acting))
-        .iter()
-        .zip(without)
-        .map(|(with, without)| difference(&with.judged, &without.judged))
-        .collect()
+    let effects = std::slice::from_ref(acting);
+    let place = acting.effect.place();
+    let mut gained = problem.gained((coefficients, without), effects, place);
+    let spoilt = gained.iter_mut().flatten().filter(|x| !x.is_finite());
+    spoilt.for_each(|x| *x = 0.0);
+    gained
 }
 
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    let both = a.iter().zip(b);
-    // A signature that is no number is none: it would spoil every product it enters.
-    let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
-    both.map(|(a, b)| finite(a - b)).collect()
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// Columns of all shapes: per column, per record.
@@ -164,9 +164,9 @@ pub fn products(problem: &Problem, coefficients: &[f64], extra: &[Vec<Vec<f64>>]
     let parts: Vec<Normal> = (0..records)
         .into_par_iter()
         .map(|k| {
-            let mut normal = Normal::new(size);
-            let mut weighing = Weighing::new(&problem.records[k], size);
-            let mut row = vec![0.0; size];
+            let mut summed = Summed::new(size);
+            let mut weighing = Weighing::new(&problem.records[k], size + 1);
+            let mut row = vec![0.0; size + 1];
             let mut rows = Rows::default();
             problem.pass(k, coefficients, &[], |i, march, step| {
                 rows.next(march, step, &mut row[..columns]);
@@ -175,14 +175,14 @@ pub fn products(problem: &Problem, coefficients: &[f64], extra: &[Vec<Vec<f64>>]
                 values.for_each(|(value, column)| *value = column[k][i]);
                 row[kept + k] = 1.0;
                 if let Some(white) = weighing.weigh(i, &row) {
-                    normal.add(white, 0.0);
+                    summed.add(white);
                 }
             });
-            normal.mirror();
-            normal
+            summed.finish()
         })
         .collect();
     let mut sum = Normal::new(size);
     parts.iter().for_each(|part| sum.merge(part));
+    sum.mirror();
     Gram::without_offsets(&sum, kept)
 }
