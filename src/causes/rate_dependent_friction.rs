@@ -59,6 +59,9 @@ pub(super) fn follow_rate(now: &Situation, memory_time: f64, memory: &mut [f64])
 /// Memory to start from, in periods of the fastest motion: a tenth of a radian.
 pub(super) const MEMORY: f64 = 0.016;
 
+/// The same, from which a memory follows what has been slid in many cycles, and no rate.
+pub(super) const LONGEST: f64 = 1.0;
+
 impl Effect for RateDependentFriction {
     fn name(&self) -> &'static str {
         "rate_dependent_friction"
@@ -105,6 +108,9 @@ impl Cause for RateDependentFriction {
     }
     fn needs_time(&self) -> bool {
         true
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[2] < LONGEST * scale.period
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [1e-3, 0.03, 0.5]

@@ -1,6 +1,6 @@
 //! `velocity_weakening`: friction falls with the slip rate (Stribeck).
 
-use super::rate_dependent_friction::{MEMORY, follow_rate};
+use super::rate_dependent_friction::{LONGEST, MEMORY, follow_rate};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::expm1;
@@ -89,6 +89,9 @@ impl Cause for VelocityWeakening {
     }
     fn needs_time(&self) -> bool {
         true
+    }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[2] < LONGEST * scale.period
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.03, 0.15, 0.6]
