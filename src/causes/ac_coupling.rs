@@ -6,19 +6,49 @@ use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::parameters::Parameter;
 
 /// A first-order high-pass, `U_meas = U − l` with `l̇ = 2π f_c (U − l)`, solved exactly for a
-/// displacement that goes straight from sample to sample.
+/// displacement that goes straight from sample to sample; a second one may follow it.
 pub struct AcCoupling;
 
-static PARAMETERS: [Parameter; 1] = [Parameter {
-    name: "corner_frequency",
-    symbol: "f_c",
-    unit: "Hz",
-    lower: 0.0,
-    upper: 1e4,
-    vanishes_at: Some(0.0),
-    neutral: None,
-    meaning: "frequency below which the channel loses the displacement",
-}];
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "corner_frequency",
+        symbol: "f_c",
+        unit: "Hz",
+        lower: 0.0,
+        upper: 1e4,
+        vanishes_at: Some(0.0),
+        neutral: None,
+        meaning: "frequency below which the channel loses the displacement",
+    },
+    Parameter {
+        name: "second_stage",
+        symbol: "r",
+        unit: "1",
+        lower: 0.0,
+        upper: 100.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "corner of a second stage over that of the first; 0: there is none",
+    },
+];
+
+/// What a stage loses of its input, for inputs at these times.
+fn lost(corner: f64, time: &[f64], input: &[f64]) -> Vec<f64> {
+    let rate = std::f64::consts::TAU * corner;
+    let mut lost = 0.0;
+    let mut before = None;
+    let samples = time.iter().zip(input);
+    samples
+        .map(|(&time, &input)| {
+            if let Some((earlier, from)) = before {
+                let [kept, old, new] = lag(rate * (time - earlier));
+                lost = kept * lost + old * from + new * input;
+            }
+            before = Some((time, input));
+            lost
+        })
+        .collect()
+}
 
 impl Effect for AcCoupling {
     fn name(&self) -> &'static str {
@@ -31,20 +61,14 @@ impl Effect for AcCoupling {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let rate = std::f64::consts::TAU * values[0];
-        let mut lost = 0.0;
-        let mut before = None;
-        let samples = truth.time.iter().zip(&truth.displacement);
-        samples
-            .map(|(&time, &displacement)| {
-                if let Some((earlier, from)) = before {
-                    let [kept, old, new] = lag(rate * (time - earlier));
-                    lost = kept * lost + old * from + new * displacement;
-                }
-                before = Some((time, displacement));
-                -lost
-            })
-            .collect()
+        let mut all = lost(values[0], &truth.time, &truth.displacement);
+        if values[1] > 0.0 {
+            let both = truth.displacement.iter().zip(&all);
+            let passed: Vec<f64> = both.map(|(u, lost)| u - lost).collect();
+            let further = lost(values[0] * values[1], &truth.time, &passed);
+            all.iter_mut().zip(&further).for_each(|(a, f)| *a += f);
+        }
+        all.iter().map(|lost| -lost).collect()
     }
 }
 
@@ -60,7 +84,7 @@ impl Cause for AcCoupling {
                 "viscous_damping",
             ],
             separated_by: "A hold under load: the reading comes back to zero here and goes on with creep; two decades of frequency: the phase lead falls with frequency while that of a delay grows; a dummy specimen.",
-            formula: "U_measured = U - l, dl/dt = 2 pi f_c (U - l)",
+            formula: "U_measured = U - l, dl/dt = 2 pi f_c (U - l), and once more with r f_c",
             source: "First-order high-pass of an AC-coupled or charge amplifier.",
         }
     }
@@ -71,7 +95,10 @@ impl Cause for AcCoupling {
         true
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.002 / scale.period]]
+        vec![vec![0.002 / scale.period, 0.0]]
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        vec![values[0], 0.5]
     }
 }
 
@@ -88,10 +115,27 @@ mod tests {
             force: vec![],
             time,
         };
-        let added = AcCoupling.channel(&[0.5], &truth);
+        let added = AcCoupling.channel(&[0.5, 0.0], &truth);
         for (added, t) in added.iter().zip(&truth.time) {
             let left = (-std::f64::consts::PI * t).exp();
             assert!((3.0 + added - 3.0 * left).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn two_stages_of_one_corner_overshoot_a_held_displacement() {
+        let time: Vec<f64> = (0..4000).map(|i| 0.001 * f64::from(i)).collect();
+        let truth = Trajectory {
+            begins: 0.0,
+            displacement: vec![3.0; time.len()],
+            force: vec![],
+            time,
+        };
+        let added = AcCoupling.channel(&[0.5, 1.0], &truth);
+        for (added, t) in added.iter().zip(&truth.time) {
+            let x = std::f64::consts::PI * t;
+            // The step response of a double pole, (1 − x) exp(−x).
+            assert!((3.0 + added - 3.0 * (1.0 - x) * (-x).exp()).abs() < 1e-5);
         }
     }
 
@@ -105,7 +149,7 @@ mod tests {
             force: vec![],
             time,
         };
-        let added = AcCoupling.channel(&[0.2], &truth);
+        let added = AcCoupling.channel(&[0.2, 0.0], &truth);
         let samples = truth.time.iter().zip(&truth.displacement).zip(&added);
         for ((time, displacement), added) in samples.skip(3000) {
             let phase = rate * time + std::f64::consts::FRAC_PI_4;

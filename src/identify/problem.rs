@@ -5,7 +5,7 @@ use super::operators::{Form, Operators};
 use super::walk::walk;
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
-use crate::record::peaks::{Between, between};
+use crate::record::peaks::{Between, Peak, between};
 use rayon::prelude::*;
 
 /// One record as the fit sees it.
@@ -115,9 +115,10 @@ impl Problem {
     /// Marches through record `k`; `each` sees every accepted step of the final pass, `None` at the
     /// peaks between samples.
     ///
-    /// An effect on the input's own channel needs the truth to be corrected, so such a pass is
-    /// repeated from the truth of the one before it; the correction is small against the input and
-    /// the repetition contracts.
+    /// An effect on the input's own channel needs the truth to be corrected. What a sensor adds to the
+    /// displacement follows from that alone, see [`undone`]; for what a load cell adds the pass is repeated
+    /// from the truth of the one before it: the correction is small against the input and the repetition
+    /// contracts.
     pub fn pass(
         &self,
         k: usize,
@@ -142,14 +143,28 @@ impl Problem {
             Form::Stop => Place::DisplacementChannel,
         };
         let corrected = effects.iter().any(|a| a.effect.place() == input_place);
-        let mut input = measured.to_vec();
-        let mut peaks = record.between.peaks.clone();
-        let rounds = if corrected { 3 } else { 1 };
         let mut truth = Trajectory {
             time: record.time.clone(),
             force: record.force.clone(),
             displacement: record.displacement.clone(),
             begins: self.records[..k].iter().map(Prepared::length).sum(),
+        };
+        let mut input = measured.to_vec();
+        let mut peaks = record.between.peaks.clone();
+        let rounds = match (corrected, self.operators.form) {
+            (true, Form::Play) => ROUNDS,
+            (true, Form::Stop) => {
+                // What a sensor adds to the displacement follows from that alone.
+                let added = undone(effects, &mut truth, measured);
+                correct(
+                    &mut input,
+                    &mut peaks,
+                    (measured, &record.between.peaks),
+                    &added,
+                );
+                1
+            }
+            (false, _) => 1,
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects, cells);
@@ -166,12 +181,12 @@ impl Problem {
             if round + 1 < rounds
                 && let Some(added) = added(effects, input_place, &truth)
             {
-                for ((x, m), a) in input.iter_mut().zip(measured).zip(&added) {
-                    *x = m - a;
-                }
-                for (peak, m) in peaks.iter_mut().zip(&record.between.peaks) {
-                    peak.value = m.value - 0.5 * (added[m.before - 1] + added[m.before]);
-                }
+                correct(
+                    &mut input,
+                    &mut peaks,
+                    (measured, &record.between.peaks),
+                    &added,
+                );
             }
         }
         let mut judged = match self.operators.form {
@@ -276,6 +291,50 @@ impl Problem {
             .iter()
             .map(|r| r.weight.iter().filter(|w| **w > 0.0).count())
             .sum()
+    }
+}
+
+/// Passes through a record whose input is corrected by what the march gives.
+const ROUNDS: usize = 3;
+
+/// Rounds in which what a sensor added to the displacement is taken off, at most.
+const MOST_ROUNDS: usize = 8;
+
+/// What sensors added to a measured displacement; leaves the true one in `truth`.
+///
+/// What depends on the past alone is undone ever better (a slow loss of an amplifier by the factorial of
+/// the rounds); where the correction no longer falls, it is noise that is raised, and the last is kept.
+fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64]) -> Vec<f64> {
+    let mut last = vec![0.0; measured.len()];
+    let mut change = f64::INFINITY;
+    for _ in 0..MOST_ROUNDS {
+        let Some(next) = added(effects, Place::DisplacementChannel, truth) else {
+            return last;
+        };
+        let moves = next.iter().zip(&last).map(|(a, b)| (a - b).abs());
+        let moved = moves.fold(0.0, f64::max);
+        if moved >= change || moved == 0.0 {
+            return last;
+        }
+        let samples = truth.displacement.iter_mut().zip(measured).zip(&next);
+        samples.for_each(|((u, m), a)| *u = m - a);
+        (last, change) = (next, moved);
+    }
+    last
+}
+
+/// Takes what was added off an input and off its peaks between samples.
+fn correct(
+    input: &mut [f64],
+    peaks: &mut [Peak],
+    (measured, measured_peaks): (&[f64], &[Peak]),
+    added: &[f64],
+) {
+    for ((x, m), a) in input.iter_mut().zip(measured).zip(added) {
+        *x = m - a;
+    }
+    for (peak, m) in peaks.iter_mut().zip(measured_peaks) {
+        peak.value = m.value - 0.5 * (added[m.before - 1] + added[m.before]);
     }
 }
 
