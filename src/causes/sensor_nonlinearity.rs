@@ -5,10 +5,10 @@ use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary;
 use crate::joint::parameters::Parameter;
 
-/// The sensor reads a bent curve, `U_meas = U + a U² + b U³`.
+/// The sensor reads a bent curve, `U_meas = U + a U² + b U³`, or `U + a U² (1 + c U²) + b U³ (1 + d U²)`.
 pub struct SensorNonlinearity;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "quadratic",
         symbol: "a",
@@ -29,6 +29,26 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "error of the reading per cube of the displacement",
     },
+    Parameter {
+        name: "even_bend",
+        symbol: "c",
+        unit: "1/m2",
+        lower: -1e24,
+        upper: 1e24,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "growth of the quadratic error per square of the displacement",
+    },
+    Parameter {
+        name: "odd_bend",
+        symbol: "d",
+        unit: "1/m2",
+        lower: -1e24,
+        upper: 1e24,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "growth of the cubic error per square of the displacement",
+    },
 ];
 
 impl Effect for SensorNonlinearity {
@@ -42,7 +62,12 @@ impl Effect for SensorNonlinearity {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let error = |u: &f64| u * u * (values[0] + values[1] * u);
+        let error = |u: &f64| {
+            let square = u * u;
+            let even = values[0] * (1.0 + values[2] * square);
+            let odd = values[1] * (1.0 + values[3] * square);
+            square * (even + odd * u)
+        };
         truth.displacement.iter().map(error).collect()
     }
 }
@@ -60,7 +85,7 @@ impl Cause for SensorNonlinearity {
                 "sensor_saturation",
             ],
             separated_by: "A dummy specimen, or a second mounting position of the sensor: the bend moves with the sensor's range and not with the joint; contact sets in at a threshold, this from zero.",
-            formula: "U_measured = U + a U^2 + b U^3",
+            formula: "U_measured = U + a U^2 (1 + c U^2) + b U^3 (1 + d U^2)",
             source: "Polynomial calibration curve of a displacement transducer.",
         }
     }
@@ -75,9 +100,15 @@ impl Cause for SensorNonlinearity {
                 vec![
                     error * square / scale.displacement,
                     error * cube / elementary::square(scale.displacement),
+                    0.0,
+                    0.0,
                 ]
             })
             .collect()
+    }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        let bend = -0.1 / elementary::square(scale.displacement);
+        vec![values[0], values[1], bend, bend]
     }
 }
 
@@ -94,8 +125,12 @@ mod tests {
             displacement: vec![-2.0, 0.0, 3.0],
         };
         assert_eq!(
-            SensorNonlinearity.channel(&[0.5, 0.25], &truth),
+            SensorNonlinearity.channel(&[0.5, 0.25, 0.0, 0.0], &truth),
             [0.0, 0.0, 11.25]
+        );
+        assert_eq!(
+            SensorNonlinearity.channel(&[0.5, 0.25, 0.125, 0.5], &truth),
+            [3.0 - 6.0, 0.0, 4.5 * 2.125 + 6.75 * 5.5]
         );
     }
 }

@@ -1,6 +1,6 @@
 //! Structure beyond noise: does what a model leaves repeat with the load or wander with time?
 
-use crate::identify::problem::whiten;
+use crate::identify::weighing::whiten;
 use crate::identify::{Prediction, Problem};
 use crate::record::cycles::{alike, cycles};
 

@@ -25,7 +25,9 @@ mod slopes;
 mod strides;
 pub mod summed;
 pub mod table;
+mod undone;
 mod walk;
+pub mod weighing;
 
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, baseline, refit, refit_below, without};

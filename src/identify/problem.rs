@@ -2,10 +2,12 @@
 
 use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
+use super::undone::{correct, undone};
 use super::walk::walk;
+use super::weighing::whiten;
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
-use crate::record::peaks::{Between, Peak, between};
+use crate::record::peaks::{Between, between};
 use rayon::prelude::*;
 
 /// One record as the fit sees it.
@@ -296,94 +298,3 @@ impl Problem {
 
 /// Passes through a record whose input is corrected by what the march gives.
 const ROUNDS: usize = 3;
-
-/// Rounds in which what a sensor added to the displacement is taken off, at most.
-const MOST_ROUNDS: usize = 8;
-
-/// What sensors added to a measured displacement; leaves the true one in `truth`.
-///
-/// What depends on the past alone is undone ever better (a slow loss of an amplifier by the factorial of
-/// the rounds); where the correction no longer falls, it is noise that is raised, and the last is kept.
-fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64]) -> Vec<f64> {
-    let mut last = vec![0.0; measured.len()];
-    let mut change = f64::INFINITY;
-    for _ in 0..MOST_ROUNDS {
-        let Some(next) = added(effects, Place::DisplacementChannel, truth) else {
-            return last;
-        };
-        let moves = next.iter().zip(&last).map(|(a, b)| (a - b).abs());
-        let moved = moves.fold(0.0, f64::max);
-        if moved >= change || moved == 0.0 {
-            return last;
-        }
-        let samples = truth.displacement.iter_mut().zip(measured).zip(&next);
-        samples.for_each(|((u, m), a)| *u = m - a);
-        (last, change) = (next, moved);
-    }
-    last
-}
-
-/// Takes what was added off an input and off its peaks between samples.
-fn correct(
-    input: &mut [f64],
-    peaks: &mut [Peak],
-    (measured, measured_peaks): (&[f64], &[Peak]),
-    added: &[f64],
-) {
-    for ((x, m), a) in input.iter_mut().zip(measured).zip(added) {
-        *x = m - a;
-    }
-    for (peak, m) in peaks.iter_mut().zip(measured_peaks) {
-        peak.value = m.value - 0.5 * (added[m.before - 1] + added[m.before]);
-    }
-}
-
-/// Whitens and weighs rows of one record, sample after sample.
-pub struct Weighing<'a> {
-    record: &'a Prepared,
-    before: Vec<f64>,
-    white: Vec<f64>,
-}
-
-impl<'a> Weighing<'a> {
-    /// For rows of `size` numbers.
-    pub fn new(record: &'a Prepared, size: usize) -> Self {
-        Weighing {
-            record,
-            before: vec![0.0; size],
-            white: vec![0.0; size],
-        }
-    }
-
-    /// The whitened, weighted row of sample `i`; `None` where the sample has no weight. Behind such a
-    /// sample whitening begins anew: what was struck out or held out says nothing of its neighbour.
-    #[inline]
-    pub fn weigh(&mut self, i: usize, row: &[f64]) -> Option<&[f64]> {
-        let weight = self.record.weight[i];
-        let a = self.record.autoregression;
-        if weight > 0.0 {
-            let (factor, scale) = if i > 0 && self.record.counts(i - 1) {
-                (a, weight)
-            } else {
-                (0.0, weight * (1.0 - a * a).max(0.0).sqrt())
-            };
-            for ((z, x), b) in self.white.iter_mut().zip(row).zip(&self.before) {
-                *z = (x - factor * b) * scale;
-            }
-        }
-        self.before.copy_from_slice(row);
-        (weight > 0.0).then_some(&self.white)
-    }
-}
-
-/// Removes first-order autoregression: the whitened value, and what a constant 1 becomes.
-#[inline]
-pub fn whiten(autoregression: f64, value: f64, before: Option<f64>) -> (f64, f64) {
-    match before {
-        Some(before) => (value - autoregression * before, 1.0 - autoregression),
-        None => {
-            let start = (1.0 - autoregression * autoregression).max(0.0).sqrt();
-            (start * value, start)
-        }
-    }
-}

@@ -1,8 +1,9 @@
 //! Rows of the dictionary along a pass, with what each carries on to later ones.
 
 use super::march::{March, Step};
-use super::problem::{Prediction, Problem, Weighing};
+use super::problem::{Prediction, Problem};
 use super::slopes::Slope;
+use super::weighing::Weighing;
 use crate::joint::effect::Acting;
 
 /// The rows of the last two samples.

@@ -3,10 +3,11 @@
 
 use super::fit::Fit;
 use super::nonnegative::Normal;
-use super::problem::{Prediction, Problem, Weighing};
+use super::problem::{Prediction, Problem};
 use super::rows::Rows;
 use super::slopes::{Slope, slopes};
 use super::summed::Summed;
+use super::weighing::Weighing;
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
 

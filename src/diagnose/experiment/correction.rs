@@ -6,7 +6,7 @@ use super::gram::Gram;
 use crate::diagnose::gain::{edges, ratio};
 use crate::diagnose::prepare::Bench;
 use crate::identify::Prediction;
-use crate::identify::problem::Weighing;
+use crate::identify::weighing::Weighing;
 
 /// A correction of the judged channel that is worth offering.
 #[derive(Debug, Clone, PartialEq)]

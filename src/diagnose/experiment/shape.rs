@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use super::gram::Gram;
 use crate::causes::{Cause, Scale};
 use crate::identify::nonnegative::Normal;
-use crate::identify::problem::Weighing;
 use crate::identify::rows::Rows;
 use crate::identify::summed::Summed;
+use crate::identify::weighing::Weighing;
 use crate::identify::{Prediction, Problem};
 use crate::joint::effect::Acting;
 
