@@ -55,6 +55,11 @@ def number(value):
     return "not told" if value is None else f"{value:.4g}"
 
 
+def present(cause):
+    """Parameters of a cause without the refinements that the data do not ask for."""
+    return [p for p in cause["parameters"] if p["name"] not in cause["absent"]]
+
+
 def with_interval(parameter):
     """A parameter with its unit and interval."""
     text = f"{parameter['name']} {number(parameter['value'])} {parameter['unit']}"
@@ -89,7 +94,7 @@ def table(found):
         ("time", f"{found['seconds']:.1f} s"),
     ]
     for cause in reversed(found["causes"]):
-        values = "; ".join(with_interval(p) for p in cause["parameters"])
+        values = "; ".join(with_interval(p) for p in present(cause))
         rivals = cause["ambiguous_with"]
         values += f"; not told from {', '.join(rivals)}" if rivals else ""
         rows.insert(1, (f"cause `{cause['name']}` ({cause['kind']})", values))
@@ -218,7 +223,7 @@ def damper(iwan, out):
             continue
         named = "; ".join(
             f"{c['name']} ("
-            + ", ".join(f"{p['name']} {number(p['value'])} {p['unit']}" for p in c["parameters"])
+            + ", ".join(f"{p['name']} {number(p['value'])} {p['unit']}" for p in present(c))
             + ")"
             for c in one["causes"]
         )

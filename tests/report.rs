@@ -300,6 +300,7 @@ fn json_follows_the_schema_field_by_field() {
                 {"name": "asymmetry", "value": 0.04, "unit": "1", "interval": null},
                 {"name": "rounding", "value": 0.0, "unit": "m", "interval": null},
             ],
+            "absent": ["rounding"],
             "ambiguous_with": ["cubic_stiffness"],
             "evidence": 812.4,
             "matters": 0.0713,

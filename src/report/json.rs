@@ -86,6 +86,7 @@ fn cause(cause: &NamedCause) -> Value {
         "name": cause.name,
         "kind": cause.kind,
         "parameters": list(&cause.parameters, estimate),
+        "absent": cause.absent,
         "ambiguous_with": cause.ambiguous_with,
         "evidence": number(cause.evidence),
         "matters": number(cause.matters),
