@@ -23,6 +23,7 @@ mod slack_growth;
 mod static_friction_drop;
 mod velocity_weakening;
 mod viscous_damping;
+mod wear;
 
 use crate::joint::effect::{Effect, Trajectory};
 

@@ -1,8 +1,8 @@
 //! `preload_loss`: friction decays as the interface works.
 
+use super::wear::{ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, remaining, shapes, worn};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
-use crate::joint::elementary::{exp, log1p};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`, or with the path of
@@ -20,66 +20,10 @@ static PARAMETERS: [Parameter; 4] = [
         neutral: None,
         meaning: "share of the break-free forces that is lost in the end",
     },
-    Parameter {
-        name: "energy",
-        symbol: "E_0",
-        unit: "J",
-        lower: 1e-15,
-        upper: ENDLESS,
-        vanishes_at: None,
-        neutral: Some(ENDLESS),
-        meaning: "dissipated energy over which the loss happens",
-    },
-    Parameter {
-        name: "tail",
-        symbol: "q",
-        unit: "1",
-        lower: 0.0,
-        upper: 5.0,
-        vanishes_at: None,
-        neutral: Some(0.0),
-        meaning: "how slowly the loss dies out: exponentially for 0, as 1/(1 + E/E_0) for 1",
-    },
-    Parameter {
-        name: "per_path",
-        symbol: "1/L",
-        unit: "1/m",
-        lower: 0.0,
-        upper: 1e15,
-        vanishes_at: None,
-        neutral: Some(0.0),
-        meaning: "one over the path of the slip over which the loss happens, where it follows that and not the energy",
-    },
+    ENERGY,
+    TAIL,
+    PER_PATH,
 ];
-
-/// An energy over which nothing wears \[J\].
-pub(super) const ENDLESS: f64 = 1e12;
-
-/// Numbers of history that [`follow_path`] keeps.
-pub(super) const PATH_MEMORY: usize = 2;
-
-/// Takes a sample into the history `[path of the slip, u]`.
-pub(super) fn follow_path(now: &Situation, memory: &mut [f64]) {
-    if let [path, slip] = memory {
-        *path += (now.slip - *slip).abs();
-        *slip = now.slip;
-    }
-}
-
-/// Work done in units of what a change takes, `E/E_0 + s/L`: wear goes with the dissipated energy
-/// (Fouvry), or with the path s under a load that is the same everywhere (Archard).
-pub(super) fn worn(dissipation: f64, path: f64, energy: f64, per_path: f64) -> f64 {
-    dissipation / energy + path * per_path
-}
-
-/// What is left of a change after the work `x` in units of its energy, `(1 + q x)^(−1/q)`.
-pub(super) fn remaining(work: f64, tail: f64) -> f64 {
-    if tail > 0.0 {
-        exp(-log1p(tail * work) / tail)
-    } else {
-        exp(-work)
-    }
-}
 
 /// Share of a record's dissipated energy below which a loss that is over is running in.
 const LATE: f64 = 0.08;
@@ -101,8 +45,8 @@ impl Effect for PreloadLoss {
         follow_path(now, memory);
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
-        let worn = worn(last.dissipation, memory[0], values[1], values[3]);
-        let limit = 1.0 - values[0] * (1.0 - remaining(worn, values[2]));
+        let left = remaining(worn(last.dissipation, memory[0], values), values[2]);
+        let limit = 1.0 - values[0] * (1.0 - left);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -133,23 +77,16 @@ impl Cause for PreloadLoss {
         vec![values[0], values[1], 0.3, values[3]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        worn(
-            LATE * scale.dissipation,
-            LATE * scale.path,
-            values[1],
-            values[3],
-        ) < 1.0
+        worn(LATE * scale.dissipation, LATE * scale.path, values) < 1.0
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let shares = [0.1, 0.2, 0.4, 0.8, 2.0];
-        let by_energy = shares.map(|share| vec![0.02, share * scale.dissipation, 0.0, 0.0]);
-        let by_path = shares.map(|share| vec![0.02, ENDLESS, 0.0, 1.0 / (share * scale.path)]);
-        by_energy.into_iter().chain(by_path).collect()
+        shapes(0.02, &[0.1, 0.2, 0.4, 0.8, 2.0], scale)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::wear::ENDLESS;
     use super::*;
 
     #[test]

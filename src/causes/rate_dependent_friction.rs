@@ -30,17 +30,20 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "slip rate below which friction no longer falls",
     },
-    Parameter {
-        name: "memory",
-        symbol: "t_m",
-        unit: "s",
-        lower: 1e-9,
-        upper: 1e9,
-        vanishes_at: None,
-        neutral: None,
-        meaning: "time in which contacts take on a new slip rate",
-    },
+    RATE_MEMORY,
 ];
+
+/// t_m; third of the values of a cause that follows the rate.
+pub(super) const RATE_MEMORY: Parameter = Parameter {
+    name: "memory",
+    symbol: "t_m",
+    unit: "s",
+    lower: 1e-9,
+    upper: 1e9,
+    vanishes_at: None,
+    neutral: None,
+    meaning: "time in which contacts take on a new slip rate",
+};
 
 /// Takes a sample into the history, the rate v: it approaches the slip rate's magnitude within the time
 /// `t` that contacts take for it, `v += (|u̇| − v)(1 − exp(−Δt/t))`.

@@ -1,6 +1,6 @@
 //! `running_in`: friction settles to its lasting value within the first cycles.
 
-use super::preload_loss::{ENDLESS, PATH_MEMORY, follow_path, remaining, worn};
+use super::wear::{ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, remaining, shapes, worn};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
@@ -20,36 +20,9 @@ static PARAMETERS: [Parameter; 4] = [
         neutral: None,
         meaning: "share of the lasting break-free forces that the fresh surfaces lack; negative where they have more",
     },
-    Parameter {
-        name: "energy",
-        symbol: "E_0",
-        unit: "J",
-        lower: 1e-15,
-        upper: ENDLESS,
-        vanishes_at: None,
-        neutral: Some(ENDLESS),
-        meaning: "dissipated energy over which the surfaces settle",
-    },
-    Parameter {
-        name: "tail",
-        symbol: "q",
-        unit: "1",
-        lower: 0.0,
-        upper: 5.0,
-        vanishes_at: None,
-        neutral: Some(0.0),
-        meaning: "how slowly the change dies out: exponentially for 0, as 1/(1 + E/E_0) for 1",
-    },
-    Parameter {
-        name: "per_path",
-        symbol: "1/L",
-        unit: "1/m",
-        lower: 0.0,
-        upper: 1e15,
-        vanishes_at: None,
-        neutral: Some(0.0),
-        meaning: "one over the path of the slip over which the surfaces settle, where they follow that and not the energy",
-    },
+    ENERGY,
+    TAIL,
+    PER_PATH,
 ];
 
 /// Share of a record's dissipated energy or path over which friction that falls has to settle: what takes
@@ -74,8 +47,8 @@ impl Effect for RunningIn {
         follow_path(now, memory);
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
-        let worn = worn(last.dissipation, memory[0], values[1], values[3]);
-        let limit = 1.0 - values[0] * remaining(worn, values[2]);
+        let left = remaining(worn(last.dissipation, memory[0], values), values[2]);
+        let limit = 1.0 - values[0] * left;
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -101,19 +74,10 @@ impl Cause for RunningIn {
         vec![values[0], values[1], 0.3, values[3]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[0] > 0.0
-            || worn(
-                SOON * scale.dissipation,
-                SOON * scale.path,
-                values[1],
-                values[3],
-            ) > 1.0
+        values[0] > 0.0 || worn(SOON * scale.dissipation, SOON * scale.path, values) > 1.0
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let shares = [0.01, 0.05, 0.2, 0.8];
-        let by_energy = shares.map(|share| vec![0.05, share * scale.dissipation, 0.0, 0.0]);
-        let by_path = shares.map(|share| vec![0.05, ENDLESS, 0.0, 1.0 / (share * scale.path)]);
-        by_energy.into_iter().chain(by_path).collect()
+        shapes(0.05, &[0.01, 0.05, 0.2, 0.8], scale)
     }
 }
 

@@ -1,6 +1,6 @@
 //! `velocity_weakening`: friction falls with the slip rate (Stribeck).
 
-use super::rate_dependent_friction::{LONGEST, MEMORY, follow_rate};
+use super::rate_dependent_friction::{LONGEST, MEMORY, RATE_MEMORY, follow_rate};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::expm1;
@@ -31,16 +31,7 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "slip rate over which friction falls",
     },
-    Parameter {
-        name: "memory",
-        symbol: "t_m",
-        unit: "s",
-        lower: 1e-9,
-        upper: 1e9,
-        vanishes_at: None,
-        neutral: None,
-        meaning: "time in which contacts take on a new slip rate",
-    },
+    RATE_MEMORY,
 ];
 
 impl Effect for VelocityWeakening {
