@@ -299,8 +299,16 @@ fn refinements_are_neutral_at_the_start_and_acting_once_refined() {
     for cause in CATALOGUE {
         let name = cause.name();
         let starts = cause.starts(&scale);
-        // An alternative is another shape's from its start, and need not join this one.
-        let elsewhere = |i: usize, neutral| starts.iter().any(|start| start[i] != neutral);
+        let lacks = |i: usize, values: &[f64]| cause.parameters()[i].neutral == Some(values[i]);
+        // Of two alternatives every shape has one from its start, and need not take on the other.
+        let alternative = |i: usize, j: usize| {
+            i != j
+                && starts.iter().any(|start| !lacks(i, start))
+                && cause.parameters()[j].neutral.is_some()
+                && starts
+                    .iter()
+                    .all(|start| lacks(i, start) != lacks(j, start))
+        };
         for start in &starts {
             let refined = cause.refined(start, &scale);
             assert_eq!(refined.len(), start.len(), "{name}");
@@ -308,7 +316,7 @@ fn refinements_are_neutral_at_the_start_and_acting_once_refined() {
             for ((i, (p, from)), to) in both.zip(&refined) {
                 match p.neutral {
                     Some(neutral) if neutral == *from => assert!(
-                        (*to != neutral || elsewhere(i, neutral))
+                        (*to != neutral || (0..start.len()).any(|j| alternative(i, j)))
                             && (p.lower..=p.upper).contains(to),
                         "{name}.{}: {from}, refined {to}",
                         p.name

@@ -34,6 +34,7 @@ use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, Prediction, baseline, exported, refit};
 use crate::joint::JointError;
 use crate::joint::effect::Acting;
+use crate::joint::parameters::Parameter;
 use crate::record::Record;
 use crate::record::noise::independence;
 use crate::record::thinned::thinned;
@@ -248,7 +249,7 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
                 name: acting.effect.name().to_string(),
                 kind: kind(acting.effect.name()),
                 parameters,
-                absent: absent(acting),
+                absent: absent(acting.effect.parameters(), &acting.values),
                 ambiguous_with: found.rivals.get(e).cloned().unwrap_or_default(),
                 evidence: found.evidence.get(e).copied().unwrap_or(0.0),
                 matters: gain::share_of_energy(&bench.whole, whole, e),
@@ -260,9 +261,9 @@ fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
 }
 
 /// Names of the refinements of a law that a fit has left out.
-fn absent(acting: &Acting) -> Vec<String> {
-    let values = acting.effect.parameters().iter().zip(&acting.values);
-    let neutral = values.filter(|(p, v)| p.neutral == Some(**v));
+fn absent(parameters: &[Parameter], values: &[f64]) -> Vec<String> {
+    let both = parameters.iter().zip(values);
+    let neutral = both.filter(|(p, v)| p.neutral == Some(**v));
     neutral.map(|(p, _)| p.name.to_string()).collect()
 }
 

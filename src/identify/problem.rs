@@ -2,7 +2,7 @@
 
 use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
-use super::undone::{correct, undone};
+use super::undone::{corrected, undone};
 use super::walk::walk;
 use super::weighing::whiten;
 use crate::joint::effect::{Acting, Place, Trajectory};
@@ -139,12 +139,11 @@ impl Problem {
     ) -> Prediction {
         let record = &self.records[k];
         let (measured, _) = self.channels(k);
-        let judged_place = self.judged_place();
         let input_place = match self.operators.form {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
         };
-        let corrected = effects.iter().any(|a| a.effect.place() == input_place);
+        let on_input = effects.iter().any(|a| a.effect.place() == input_place);
         let mut truth = Trajectory {
             time: record.time.clone(),
             force: record.force.clone(),
@@ -153,17 +152,12 @@ impl Problem {
         };
         let mut input = measured.to_vec();
         let mut peaks = record.between.peaks.clone();
-        let rounds = match (corrected, self.operators.form) {
+        let rounds = match (on_input, self.operators.form) {
             (true, Form::Play) => ROUNDS,
             (true, Form::Stop) => {
                 // What a sensor adds to the displacement follows from that alone.
                 let added = undone(effects, &mut truth, measured);
-                correct(
-                    &mut input,
-                    &mut peaks,
-                    (measured, &record.between.peaks),
-                    &added,
-                );
+                (input, peaks) = corrected(measured, &record.between.peaks, &added);
                 1
             }
             (false, _) => 1,
@@ -183,21 +177,10 @@ impl Problem {
             if round + 1 < rounds
                 && let Some(added) = added(effects, input_place, &truth)
             {
-                correct(
-                    &mut input,
-                    &mut peaks,
-                    (measured, &record.between.peaks),
-                    &added,
-                );
+                (input, peaks) = corrected(measured, &record.between.peaks, &added);
             }
         }
-        let mut judged = match self.operators.form {
-            Form::Play => truth.displacement.clone(),
-            Form::Stop => truth.force.clone(),
-        };
-        if let Some(added) = added(effects, judged_place, &truth) {
-            judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
-        }
+        let judged = self.judged(&truth, effects);
         Prediction { judged, truth }
     }
 
@@ -210,33 +193,27 @@ impl Problem {
     }
 
     /// The channel of a form that is judged, as a place where effects act.
-    pub(super) fn judged_place(&self) -> Place {
+    fn judged_place(&self) -> Place {
         match self.operators.form {
             Form::Play => Place::DisplacementChannel,
             Form::Stop => Place::ForceChannel,
         }
     }
 
-    /// The judged channels of a model that differs from the one which gave `at` by its effects on the
-    /// judged channel alone: its march is the same.
-    pub(super) fn remeasured(&self, at: &[Prediction], effects: &[Acting]) -> Vec<Vec<f64>> {
-        let place = self.judged_place();
-        let judged = |prediction: &Prediction| {
-            let truth = &prediction.truth;
-            let mut judged = match self.operators.form {
-                Form::Play => truth.displacement.clone(),
-                Form::Stop => truth.force.clone(),
-            };
-            if let Some(added) = added(effects, place, truth) {
-                judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
-            }
-            judged
+    /// The judged channel as the measuring chain gives it.
+    fn judged(&self, truth: &Trajectory, effects: &[Acting]) -> Vec<f64> {
+        let mut judged = match self.operators.form {
+            Form::Play => truth.displacement.clone(),
+            Form::Stop => truth.force.clone(),
         };
-        at.par_iter().map(judged).collect()
+        if let Some(added) = added(effects, self.judged_place(), truth) {
+            judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
+        }
+        judged
     }
 
     /// What the judged channels of `at` gain by other effects, of which those at the place of the one
-    /// `changed` alone differ.
+    /// `changed` alone differ; where that is the judged channel, the march is the same.
     pub fn gained(
         &self,
         (coefficients, at): (&[f64], &[Prediction]),
@@ -244,10 +221,13 @@ impl Problem {
         changed: Place,
     ) -> Vec<Vec<f64>> {
         let judged = match changed == self.judged_place() {
-            true => self.remeasured(at, effects),
+            true => at
+                .par_iter()
+                .map(|p| self.judged(&p.truth, effects))
+                .collect(),
             false => {
                 let predictions = self.predict(coefficients, effects).into_iter();
-                predictions.map(|p| p.judged).collect()
+                predictions.map(|p| p.judged).collect::<Vec<_>>()
             }
         };
         let pairs = judged.iter().zip(at);

@@ -30,17 +30,12 @@ pub(super) fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64
     last
 }
 
-/// Takes what was added off an input and off its peaks between samples.
-pub(super) fn correct(
-    input: &mut [f64],
-    peaks: &mut [Peak],
-    (measured, measured_peaks): (&[f64], &[Peak]),
-    added: &[f64],
-) {
-    for ((x, m), a) in input.iter_mut().zip(measured).zip(added) {
-        *x = m - a;
+/// An input and its peaks between samples without what was added.
+pub(super) fn corrected(measured: &[f64], peaks: &[Peak], added: &[f64]) -> (Vec<f64>, Vec<Peak>) {
+    let input = measured.iter().zip(added).map(|(m, a)| m - a).collect();
+    let mut peaks = peaks.to_vec();
+    for peak in &mut peaks {
+        peak.value -= 0.5 * (added[peak.before - 1] + added[peak.before]);
     }
-    for (peak, m) in peaks.iter_mut().zip(measured_peaks) {
-        peak.value = m.value - 0.5 * (added[m.before - 1] + added[m.before]);
-    }
+    (input, peaks)
 }

@@ -6,6 +6,7 @@ use super::model::Model;
 use crate::causes::find;
 use crate::diagnose::findings::Estimate;
 use crate::identify::table::Known;
+use crate::joint::parameters::Parameter;
 use crate::joint::play::Plays;
 use crate::joint::{Acting, Density, Joint, JointError, Sliders};
 
@@ -82,9 +83,13 @@ pub fn parameters(shown: Shown, size: f64, stiffness: f64) -> Vec<f64> {
     }
 }
 
+/// Parameters of an effect in the catalogue.
+pub fn glossary(shown: Shown) -> &'static [Parameter] {
+    find(shown.name()).map_or(&[][..], |cause| cause.effect().parameters())
+}
+
 /// Parameters of an effect with the intervals of their values over refits of simulated tables.
 pub fn estimates(shown: Shown, values: &[f64], refits: &[Vec<f64>]) -> Vec<Estimate> {
-    let glossary = find(shown.name()).map_or(&[][..], |cause| cause.effect().parameters());
     let interval = |index: usize| {
         let mut over: Vec<f64> = refits
             .iter()
@@ -94,7 +99,7 @@ pub fn estimates(shown: Shown, values: &[f64], refits: &[Vec<f64>]) -> Vec<Estim
         let at = |share: f64| over.get((share * over.len() as f64) as usize).copied();
         at(0.025).zip(at(0.975)).filter(|_| over.len() >= 40)
     };
-    glossary
+    glossary(shown)
         .iter()
         .zip(values)
         .enumerate()

@@ -225,7 +225,7 @@ impl<'a> Search<'a> {
                 name: shown.name().to_string(),
                 kind: super::kind(shown.name()),
                 parameters: exported::estimates(*shown, &values, &spread),
-                absent: Vec::new(),
+                absent: super::absent(exported::glossary(*shown), &values),
                 ambiguous_with: rivals.clone(),
                 evidence: *fall,
                 matters: (1.0 - loss(&without) / whole).abs(),
