@@ -50,10 +50,11 @@ pub fn form(records: &[Record]) -> Form {
     let (mut force, mut displacement) = (0.0, 0.0);
     for record in records {
         let noise = |channel: &[f64]| {
-            let other = from_repeats(&record.force, channel)
-                .or_else(|| from_repeats(&record.displacement, channel))
-                .unwrap_or_else(|| from_differences(channel));
-            other.deviation / rms(channel)
+            let fast = from_differences(channel).deviation;
+            let repeated = from_repeats(&record.force, channel)
+                .or_else(|| from_repeats(&record.displacement, channel));
+            // What drifts or jumps from cycle to cycle is no noise; what is sharp in every cycle neither.
+            repeated.map_or(fast, |noise| noise.deviation.min(fast)) / rms(channel)
         };
         force += noise(&record.force);
         displacement += noise(&record.displacement);
