@@ -1,7 +1,7 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
 //! the baseline, the best set grown forward, its causes exchanged for better ones, and pruned backward.
 
-use super::places::{self, Place};
+use super::places::{self, NEARLY, Place};
 use super::prepare::Bench;
 use super::tested::{Prospect, tested};
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
@@ -23,6 +23,9 @@ const OVERRATED: f64 = 0.5;
 
 /// Causes, best first, whose prediction of held-out cycles is looked at in one round.
 const PREDICTORS: usize = 4;
+
+/// First causes, best first, beside which a second one is looked for where the set leaves structure.
+const BEGINNINGS: usize = 4;
 
 /// Most causes named together.
 const MOST: usize = 3;
@@ -71,43 +74,125 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
 
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
 ///
-/// A second cause stays until the places of both have been looked at. Of the causes with enough evidence, the one is taken that lowers the squared error most, held-out
-/// samples included, of those that [`Prospect::holds`] lets pass.
+/// The first cause that is taken need not be of the true set: one that is neither of two may take more than
+/// each of them. Where the set leaves structure, it is grown from other first causes as well.
 fn grown(bench: &Bench, timed: bool, baseline: &Fit, effort: Effort) -> (Fit, Vec<Trial>) {
-    let problem = &bench.train;
-    let least = least(problem, baseline);
-    let mut current = baseline.clone();
-    let mut first: Option<Vec<Trial>> = None;
-    for round in 0..MOST {
-        let enough = match round {
-            0 => f64::INFINITY,
-            1 => current.misfit - least.min(0.5 * structure(problem, &current)),
-            _ => current.misfit - least,
-        };
-        if enough < OVERRATED * problem.rows() as f64 {
-            break;
-        }
-        let trials = trials(problem, &bench.scale, timed, &current, (effort, enough));
-        let enough = |t: &Trial| t.fit.misfit < enough;
-        let mut promising = trials.iter().filter(|t| t.evidence >= ALARM && enough(t));
-        let next = match effort {
+    let least = least(&bench.train, baseline);
+    let grow = Grow {
+        bench,
+        timed,
+        effort,
+        least,
+    };
+    let trials = trials(
+        &bench.train,
+        &bench.scale,
+        timed,
+        baseline,
+        (effort, f64::INFINITY),
+    );
+    let Some(one) = grow.next(baseline, &trials, f64::INFINITY) else {
+        return (baseline.clone(), trials);
+    };
+    let mut best = grow.on(one, &trials);
+    if effort == Effort::Full
+        && grow.leaves_another(baseline, &best)
+        && let Some(two) = grow.elsewhere(&best, &trials)
+    {
+        best = grow.on(two, &trials);
+    }
+    (best, trials)
+}
+
+/// How sets grow.
+struct Grow<'a> {
+    bench: &'a Bench,
+    timed: bool,
+    effort: Effort,
+    /// Misfit that one cause of several has to take away.
+    least: f64,
+}
+
+impl Grow<'_> {
+    /// The set with the trial that lowers the squared error most, held-out samples included, of those with
+    /// enough evidence that [`Prospect::holds`] lets pass.
+    fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
+        let mut promising = trials
+            .iter()
+            .filter(|t| t.evidence >= ALARM && t.fit.misfit < enough);
+        let next = match self.effort {
             Effort::Quick => promising.next(),
             Effort::Full => promising
                 .take(PREDICTORS)
-                .map(|t| (t, Prospect::of(bench, &current, &t.fit)))
+                .map(|t| (t, Prospect::of(self.bench, current, &t.fit)))
                 .filter(|(_, prospect)| prospect.holds())
                 .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))
                 .map(|(t, _)| t),
         };
-        let next = next.map(|t| t.fit.clone());
-        first.get_or_insert(trials);
-        match next {
-            Some(fit) if round == 1 => current = fit,
-            Some(fit) => current = prune(problem, fit, least, first.as_deref().unwrap_or_default()),
-            None => break,
-        }
+        next.map(|t| t.fit.clone())
     }
-    (current, first.unwrap_or_default())
+
+    /// Trials beside a set; `enough` is the misfit that a further cause must reach.
+    fn beside(&self, current: &Fit, (effort, enough): (Effort, f64)) -> Vec<Trial> {
+        let Grow { bench, timed, .. } = *self;
+        trials(&bench.train, &bench.scale, timed, current, (effort, enough))
+    }
+
+    /// Adds causes to a set of one or two. A second cause stays until the places of both have been looked at.
+    fn on(&self, mut current: Fit, first: &[Trial]) -> Fit {
+        let problem = &self.bench.train;
+        while current.effects.len() < MOST {
+            let enough = match current.effects.len() {
+                1 => current.misfit - self.least.min(0.5 * structure(problem, &current)),
+                _ => current.misfit - self.least,
+            };
+            if enough < OVERRATED * problem.rows() as f64 {
+                break;
+            }
+            let trials = self.beside(&current, (self.effort, enough));
+            let second = current.effects.len() == 1;
+            match self.next(&current, &trials, enough) {
+                Some(fit) if second => current = fit,
+                Some(fit) => {
+                    current = prune(problem, fit, self.least, first);
+                    break;
+                }
+                None => break,
+            }
+        }
+        current
+    }
+
+    /// True where a set leaves structure, and more than the laws of the right causes may be wrong by.
+    fn leaves_another(&self, baseline: &Fit, best: &Fit) -> bool {
+        let problem = &self.bench.train;
+        let wrong_by = NEARLY * (baseline.misfit - problem.rows() as f64);
+        structure(problem, best).is_finite() && places::beyond_scatter(problem, best) > wrong_by
+    }
+
+    /// The best pair that begins with a first cause outside of the set, if it is better than the set.
+    fn elsewhere(&self, best: &Fit, first: &[Trial]) -> Option<Fit> {
+        let mut beginnings: Vec<&Trial> = first
+            .iter()
+            .filter(|t| t.plausible && t.evidence >= ALARM)
+            .filter(|t| {
+                best.effects
+                    .iter()
+                    .all(|a| a.effect.name() != t.cause.name())
+            })
+            .collect();
+        beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
+        let least = ALARM * dispersion(&self.bench.train, best);
+        let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
+            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit));
+            self.next(&one.fit, &trials, best.misfit)
+        });
+        pairs
+            .map(|pair| (Prospect::of(self.bench, best, &pair).total(), pair))
+            .filter(|(gain, _)| *gain > least)
+            .max_by(|(a, _), (b, _)| a.total_cmp(b))
+            .map(|(_, pair)| pair)
+    }
 }
 
 /// Misfit that noise alone does not leave; without end where a set leaves no such.
@@ -158,12 +243,10 @@ fn settled(
 }
 
 /// Misfit that each of several causes has to take away: enough evidence, and its share, which is
-/// smaller where together they leave nothing: a law that is only nearly right is not mended wholly by another's.
+/// smaller the less they leave together: a law that is only nearly right is not mended wholly by another's.
 fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
-    let least = match places::beyond_scatter(problem, fit) > 0.0 {
-        true => least,
-        false => COMPLETE * least,
-    };
+    let left = places::beyond_scatter(problem, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
+    let least = least * (COMPLETE + (1.0 - COMPLETE) * left.min(1.0));
     least.max(ALARM * dispersion(problem, fit))
 }
 
