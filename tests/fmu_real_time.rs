@@ -60,7 +60,7 @@ fn bolt(causes: &str) -> &'static str {
 const CAUSES: &str = r#"
     {"name": "clearance", "parameters": {"gap": 2e-6, "seating_force": 20.0}},
     {"name": "creep", "parameters": {"compliance": 1e-9, "time_constant": 0.05,
-                                    "spread": 0.5}},
+                                    "faster": 0.5, "slower": 0.5}},
     {"name": "slack_growth", "parameters": {"growth": 1e-9, "threshold": 300.0,
                                             "seating_force": 10.0}},
     {"name": "pinning", "parameters": {"stiffness": 2e6, "gap_positive": 1e-5,
@@ -76,7 +76,7 @@ const CAUSES: &str = r#"
     {"name": "preload_loss", "parameters": {"loss": 0.05, "energy": 10.0, "tail": 0.3}},
     {"name": "running_in", "parameters": {"deficit": 0.05, "energy": 0.1, "tail": 0.0}},
     {"name": "velocity_weakening", "parameters": {"drop": 0.02, "stribeck_rate": 1e-3,
-                                                  "memory": 0.01}},
+                                                  "memory": 0.01, "exponent": 0.8}},
     {"name": "static_friction_drop", "parameters": {"excess": 0.05,
                                                     "breakaway_distance": 0.0}},
     {"name": "rate_dependent_friction", "parameters": {"gain": 0.02,

@@ -2,14 +2,14 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
-use crate::joint::elementary::{exp, expm1};
+use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
-/// A Kelvin element in series, `τ ṡ = J F − s`, or a chain of [`CHAIN`] whose time constants are spread
-/// evenly over decades; solved exactly for a force that goes straight through each step.
+/// A Kelvin element in series, `τ ṡ = J F − s`, and one a decade faster and one a decade slower beside it
+/// (a Prony series); solved exactly for a force that goes straight through each step.
 pub struct Creep;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "compliance",
         symbol: "J",
@@ -31,36 +31,45 @@ static PARAMETERS: [Parameter; 3] = [
         meaning: "time in which the rest of the creep falls to 1/e",
     },
     Parameter {
-        name: "spread",
-        symbol: "d",
+        name: "faster",
+        symbol: "q_-",
         unit: "1",
         lower: 0.0,
-        upper: 3.0,
+        upper: 1e3,
         vanishes_at: None,
         neutral: Some(0.0),
-        meaning: "decades by which the fastest and the slowest part lie off the time constant; 0: one time constant",
+        meaning: "further compliance that creeps ten times as fast, over J",
+    },
+    Parameter {
+        name: "slower",
+        symbol: "q_+",
+        unit: "1",
+        lower: 0.0,
+        upper: 1e3,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "further compliance that creeps ten times as slowly, over J",
     },
 ];
 
-/// Elements of a chain with spread time constants: two in a decade where it is one to each side.
-const CHAIN: usize = 5;
+/// Elements of the series.
+const CHAIN: usize = 3;
+
+/// Ratio of the time constants of two elements.
+const DECADE: f64 = 10.0;
+
+/// Share of the compliance from which the faster and the slower part are refined, and below which a side has nothing.
+const BESIDE: f64 = 0.3;
 
 /// Compliance and time constant of every element.
-fn elements(values: &[f64]) -> impl Iterator<Item = (f64, f64)> {
-    let [compliance, time_constant, spread] = [values[0], values[1], values[2]];
-    let (count, ratio) = match spread > 0.0 {
-        true => (CHAIN, exp(DECADE * spread / (CHAIN / 2) as f64)),
-        false => (1, 1.0),
-    };
-    let fastest = (0..count / 2).fold(time_constant, |time, _| time / ratio);
-    let times = std::iter::successors(Some(fastest), move |time| Some(time * ratio));
-    times
-        .take(count)
-        .map(move |time| (compliance / count as f64, time))
+fn elements(values: &[f64]) -> [(f64, f64); CHAIN] {
+    let [compliance, time_constant] = [values[0], values[1]];
+    [
+        (compliance, time_constant),
+        (values[2] * compliance, time_constant / DECADE),
+        (values[3] * compliance, time_constant * DECADE),
+    ]
 }
-
-/// ln 10.
-const DECADE: f64 = std::f64::consts::LN_10;
 
 /// What a first-order lag keeps of its value, and takes of its input's old and new value, over a
 /// step of `x` time constants in which the input goes straight; the three add up to 1.
@@ -107,7 +116,7 @@ impl Effect for Creep {
     }
     fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
         if let [last, crept @ ..] = memory {
-            for (element, crept) in elements(values).zip(crept) {
+            for (element, crept) in elements(values).into_iter().zip(crept) {
                 *crept = after(element, *crept, (*last, now.force), now.step).value;
             }
             *last = now.force;
@@ -116,7 +125,7 @@ impl Effect for Creep {
     fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
         let mut sum = Response::default();
         if let [last, crept @ ..] = memory {
-            for (element, crept) in elements(values).zip(crept) {
+            for (element, crept) in elements(values).into_iter().zip(crept) {
                 let one = after(element, *crept, (*last, force), step);
                 sum.value += one.value;
                 sum.slope += one.slope;
@@ -127,11 +136,14 @@ impl Effect for Creep {
     /// The elements' springs, `Σ s²/(2J)`; their dashpots have the rest.
     fn stored_energy(&self, values: &[f64], _now: &Situation, memory: &[f64]) -> Option<f64> {
         let crept = memory.iter().skip(1);
-        let each = elements(values).zip(crept);
-        let stored: f64 = each
-            .map(|((compliance, _), s)| 0.5 * s * s / compliance)
-            .sum();
-        Some(if values[0] > 0.0 { stored } else { 0.0 })
+        let each = elements(values).into_iter().zip(crept);
+        // A part without compliance has not crept.
+        let parts = each.filter(|((compliance, _), _)| *compliance > 0.0);
+        Some(
+            parts
+                .map(|((compliance, _), s)| 0.5 * s * s / compliance)
+                .sum(),
+        )
     }
 }
 
@@ -147,8 +159,8 @@ impl Cause for Creep {
                 "ac_coupling",
             ],
             separated_by: "Two decades of frequency: the loss of a dashpot goes on growing, that of creep turns; a hold under load against one at zero force: drift knows no difference.",
-            formula: "U = u + F/K_1 + s, tau ds/dt = J F - s; with a spread, five such parts of J/5 and tau 10^(-d) to tau 10^d",
-            source: "Kelvin-Voigt element in series, the standard linear solid; a chain of them for a spectrum of retardation times (Ferry 1980).",
+            formula: "U = u + F/K_1 + s, tau ds/dt = J F - s; beside it, where the data ask for them, q_- J with tau/10 and q_+ J with 10 tau",
+            source: "Kelvin-Voigt element in series, the standard linear solid; a series of one element a decade for a spectrum of retardation times (Ferry 1980).",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
@@ -164,11 +176,26 @@ impl Cause for Creep {
         by_period
             .iter()
             .chain(&by_duration)
-            .map(|time_constant| vec![compliance, *time_constant, 0.0])
+            .map(|time_constant| vec![compliance, *time_constant, 0.0, 0.0])
             .collect()
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], 0.5]
+        vec![values[0], values[1], BESIDE, BESIDE]
+    }
+    /// A decade on, where one side has nothing: the time constant slides in small steps only.
+    fn begun_anew(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let [compliance, time_constant, faster, slower] = *values else {
+            return None;
+        };
+        if faster < BESIDE && slower > BESIDE {
+            let time_constant = time_constant * DECADE;
+            Some(vec![slower * compliance, time_constant, 1.0 / slower, 1.0])
+        } else if slower < BESIDE && faster > BESIDE {
+            let time_constant = time_constant / DECADE;
+            Some(vec![faster * compliance, time_constant, 1.0, 1.0 / faster])
+        } else {
+            None
+        }
     }
 }
 
@@ -178,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_held_force_creeps_to_its_end_by_the_exponential() {
-        let (values, mut memory) = ([0.5, 2.0, 0.0], [0.0; 1 + CHAIN]);
+        let (values, mut memory) = ([0.5, 2.0, 0.0, 0.0], [0.0; 1 + CHAIN]);
         for step in [0.0, 0.3, 0.7, 1.0] {
             let now = Situation {
                 step,
@@ -192,29 +219,38 @@ mod tests {
     }
 
     #[test]
-    fn a_spread_creeps_sooner_and_ends_later_and_to_the_same() {
-        let crept = |spread: f64, after: f64| {
-            let values = [0.5, 2.0, spread];
-            let mut memory = [0.0; 1 + CHAIN];
-            for step in [0.0, after] {
-                let now = Situation {
-                    step,
-                    force: 4.0,
-                    ..Situation::default()
-                };
-                Creep.remember(&values, &now, &mut memory);
-            }
-            Creep.in_series(&values, 4.0, 0.0, &memory).value
-        };
-        assert!(crept(1.0, 0.2) > 2.0 * crept(0.0, 0.2));
-        assert!(crept(1.0, 6.0) < 0.95 * crept(0.0, 6.0));
-        assert!((crept(1.0, 1e4) - 2.0).abs() < 1e-12);
-        assert!((crept(1e-9, 3.0) - crept(0.0, 3.0)).abs() < 1e-8);
+    fn the_parts_beside_creep_a_decade_sooner_and_later() {
+        let values = [0.5, 2.0, 0.2, 0.6];
+        let mut memory = [0.0; 1 + CHAIN];
+        for step in [0.0, 3.0] {
+            let now = Situation {
+                step,
+                force: 4.0,
+                ..Situation::default()
+            };
+            Creep.remember(&values, &now, &mut memory);
+        }
+        let part = |compliance: f64, time: f64| 4.0 * compliance * (1.0 - (-3.0 / time).exp());
+        let expected = part(0.5, 2.0) + part(0.1, 0.2) + part(0.3, 20.0);
+        let crept = Creep.in_series(&values, 4.0, 0.0, &memory).value;
+        assert!((crept - expected).abs() < 1e-14);
+        let now = Situation::default();
+        let stored = |values: &[f64]| Creep.stored_energy(values, &now, &memory);
+        let parts = memory[1..].iter().zip([0.5, 0.1, 0.3]);
+        let expected: f64 = parts
+            .map(|(s, compliance)| s * s / (2.0 * compliance))
+            .sum();
+        assert!((stored(&values).unwrap() - expected).abs() < 1e-14);
+        assert_eq!(
+            stored(&[0.5, 2.0, 0.0, 0.0]),
+            Some(memory[1] * memory[1]),
+            "parts that are absent store nothing",
+        );
     }
 
     #[test]
     fn a_ramp_lags_by_its_rate_times_the_time_constant() {
-        let (values, mut memory) = ([0.5, 0.01, 0.0], [0.0; 1 + CHAIN]);
+        let (values, mut memory) = ([0.5, 0.01, 0.0, 0.0], [0.0; 1 + CHAIN]);
         for sample in 1..=100 {
             let now = Situation {
                 step: 0.01,

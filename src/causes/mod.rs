@@ -100,6 +100,10 @@ pub trait Cause: Effect {
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         values.to_vec()
     }
+    /// Other values of a refined law to begin from once more, where those fitted are the end of a way.
+    fn begun_anew(&self, _values: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
     /// False where the fitted values are those of another cause: two laws may be the same formula
     /// in different ranges.
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {

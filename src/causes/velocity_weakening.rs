@@ -3,14 +3,14 @@
 use super::rate_dependent_friction::{LONGEST, MEMORY, RATE_MEMORY, follow_rate};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
-use crate::joint::elementary::expm1;
+use crate::joint::elementary::{expm1, power};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−v/v_s)]`, where v follows |u̇|
+/// Break-free forces fall with the slip rate, `n = 1 − a [1 − exp(−(v/v_s)^δ)]`, where v follows |u̇|
 /// over a memory.
 pub struct VelocityWeakening;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "drop",
         symbol: "a",
@@ -32,7 +32,32 @@ static PARAMETERS: [Parameter; 3] = [
         meaning: "slip rate over which friction falls",
     },
     RATE_MEMORY,
+    Parameter {
+        name: "exponent",
+        symbol: "delta",
+        unit: "1",
+        lower: 0.2,
+        upper: 3.0,
+        vanishes_at: None,
+        neutral: Some(1.0),
+        meaning: "how sharply friction falls about the Stribeck rate; below 1 over decades of the rate",
+    },
 ];
+
+/// Exponent from which a fall over decades of the rate is refined.
+const GRADUAL: f64 = 0.8;
+
+impl VelocityWeakening {
+    /// Break-free factor at a slip rate.
+    fn factor(values: &[f64], rate: f64) -> f64 {
+        let relative = rate / values[1];
+        let reached = match values[3] == 1.0 {
+            true => relative,
+            false => power(relative, values[3]),
+        };
+        1.0 + values[0] * expm1(-reached)
+    }
+}
 
 impl Effect for VelocityWeakening {
     fn name(&self) -> &'static str {
@@ -51,7 +76,7 @@ impl Effect for VelocityWeakening {
         follow_rate(now, values[2], memory);
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 + values[0] * expm1(-memory[0] / values[1]);
+        let limit = VelocityWeakening::factor(values, memory[0]);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -71,7 +96,7 @@ impl Cause for VelocityWeakening {
                 "creep",
             ],
             separated_by: "The same stroke at several frequencies: a drop after breakaway follows slid distance and stays the same, weakening follows the rate; growth with rate has the other sign.",
-            formula: "phi = phi_0 [1 - a (1 - exp(-v/v_s))], dv/dt = (|du/dt| - v)/t_m",
+            formula: "phi = phi_0 [1 - a (1 - exp(-(v/v_s)^delta))], dv/dt = (|du/dt| - v)/t_m",
             source: "Stribeck curve as in Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994.",
         }
     }
@@ -87,8 +112,15 @@ impl Cause for VelocityWeakening {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.03, 0.15, 0.6]
             .iter()
-            .map(|share| vec![0.02, share * scale.velocity, MEMORY * scale.period])
+            .map(|share| vec![0.02, share * scale.velocity, MEMORY * scale.period, 1.0])
             .collect()
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        let mut gradual = values.to_vec();
+        if gradual[3] == 1.0 {
+            gradual[3] = GRADUAL;
+        }
+        gradual
     }
 }
 
@@ -98,12 +130,30 @@ mod tests {
 
     #[test]
     fn friction_falls_with_the_rate_to_what_is_left() {
-        let at =
-            |rate| VelocityWeakening.slip_limit(&[0.4, 2.0, 0.01], &Situation::default(), &[rate]);
+        let at = |rate| {
+            VelocityWeakening.slip_limit(&[0.4, 2.0, 0.01, 1.0], &Situation::default(), &[rate])
+        };
         assert_eq!(at(0.0), SlipLimit::UNCHANGED);
         let expected = 1.0 - 0.4 * (1.0 - (-0.5_f64).exp());
         assert!((at(1.0).positive - expected).abs() < 1e-15);
         assert_eq!(at(1.0).positive, at(1.0).negative);
         assert!((at(1e9).negative - 0.6).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_exponent_spreads_the_fall_about_the_stribeck_rate() {
+        let factor =
+            |exponent: f64, rate| VelocityWeakening::factor(&[0.4, 2.0, 0.01, exponent], rate);
+        let expected = |exponent: f64, rate: f64| 0.6 + 0.4 * (-(rate / 2.0).powf(exponent)).exp();
+        for (exponent, rate) in [
+            (0.5, 0.02),
+            (0.5, 200.0),
+            (2.0, 0.02),
+            (2.0, 3.0),
+            (1.0, 0.7),
+        ] {
+            assert!((factor(exponent, rate) - expected(exponent, rate)).abs() < 1e-14);
+        }
+        assert_eq!(factor(0.5, 0.0), 1.0);
     }
 }

@@ -3,7 +3,7 @@
 use super::{JointError, Output, Response, Simulation};
 
 /// Version of the saved state.
-const FORMAT: f64 = 5.0;
+const FORMAT: f64 = 6.0;
 /// Numbers of a saved state before those of the response.
 const HEAD: usize = 11;
 
