@@ -8,6 +8,7 @@ import numpy as np
 
 from . import csvfile, loads
 from .effects import CATALOGUE, EFFECTS, NEEDS_HOLDS
+from .effects_instrument import HALVINGS
 from .joints import draw_joint
 from .noise import Noise, draw_colour
 from .noise import noise as gaussian
@@ -16,7 +17,7 @@ from .rig import Effect, Infeasible
 from .scene import Scene
 
 FLOOR = 0.2  # the clean record must refit to this fraction of its noise
-CLOCK = 0.5  # of the noise is what halving the rig's steps may change
+CLOCK = 0.1  # of the noise is what halving the rig's steps may still change
 
 
 class Unreachable(Exception):
@@ -159,17 +160,23 @@ def stage_scene(rng, names, ratio, noise_kind):
     return scene, share, gauge, level, kind
 
 
-def clocked(scene, effect, sampled):
-    """Rms of what halving the rig's steps changes in the response [its unit].
+def converged(scene, effect, sampled, noise):
+    """The channels with the rig's steps halved until they no longer show in the noise.
 
-    Limits that follow the joint act one step late: what comes of it is the rig's, not the joint's.
+    Dampers, limits and memories are taken by steps, to first order: what comes of a long one is the
+    rig's, not the joint's.
     """
-    if not {"limits", "after"} <= effect.acts:
-        return 0.0
-    finer = replace(scene, histories=[h.halved() for h in scene.histories])
-    again = Sampled(finer, finer.play(effect), effect)
-    pairs = zip(again.response, sampled.response, strict=True)
-    return float(np.std(np.concatenate([a - b for a, b in pairs])))
+    if effect.acts <= {"read_force", "read_displacement"}:
+        return sampled
+    for _ in range(HALVINGS):
+        scene = replace(scene, histories=[h.halved() for h in scene.histories])
+        finer = Sampled(scene, scene.play(effect), effect)
+        pairs = zip(finer.response, sampled.response, strict=True)
+        changed = float(np.std(np.concatenate([a - b for a, b in pairs])))
+        sampled = finer
+        if changed <= CLOCK * noise:
+            return sampled
+    raise Unreachable("the rig's steps would show")
 
 
 def planted(name, scene, rng, gauge, target, noise, refused):
@@ -178,9 +185,7 @@ def planted(name, scene, rng, gauge, target, noise, refused):
         try:
             effect = EFFECTS[name](scene, rng)
             found, sampled = calibrate(gauge, effect, target)
-            if clocked(scene, effect, sampled) > CLOCK * noise:
-                raise Unreachable("the rig's steps would show")
-            return effect, found, sampled
+            return effect, found, converged(scene, effect, sampled, noise)
         except (Unreachable, Infeasible) as reason:
             refused.append(str(reason))
     raise Unreachable(f"no draft of {name} would do")

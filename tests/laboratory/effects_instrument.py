@@ -6,6 +6,7 @@ from scipy.signal import lfilter
 from .effects_catalogue import Scaled
 from .rig import Infeasible
 
+HALVINGS = 3  # of the rig's steps, until they do not show
 FOLLOW_UP_FINE = 4  # steps of the rig between two samples of a test that is not of the campaign
 
 
@@ -39,7 +40,11 @@ class FixtureInertia(Scaled):
     def draw(self, scene, rng):
         fastest = (2 * np.pi * scene.fastest) ** 2 * scene.largest("displacement")
         self.most = 0.5 * scene.largest("force") / fastest
-        self.fine = {len(h.time): h.fine for h in scene.histories}
+        self.fine = {
+            2**halved * (len(h.time) - 1) + 1: 2**halved * h.fine
+            for h in scene.histories
+            for halved in range(HALVINGS + 1)
+        }
 
     def read_force(self, trace):
         velocity = np.gradient(trace.displacement, trace.time)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .case import Staged, Unreachable, planted, record, stage_scene
+from .case import Staged, Unreachable, converged, planted, record, stage_scene
 from .effects import CATALOGUE
 from .rig import Effect, Infeasible
 
@@ -98,6 +98,7 @@ def stage_pair(seed, number, names=None, ratio=2.0, noise=None):
             cosine = likeness(*found, left)
             if abs(cosine) > ALIKE:
                 raise Unreachable(f"traces alike, cosine {cosine:.2f}")
+            sampled = converged(scene, both, sampled, noise_rms)
         except (Unreachable, Infeasible, RuntimeError) as reason:
             refused.append(str(reason))
             continue

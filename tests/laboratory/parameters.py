@@ -106,7 +106,7 @@ NOT_COMPARABLE = {
     "normal_load_variation": "exponential against linear, and the finder's weights two loads",
     "running_in": "settles along the slip path, the finder's with dissipated energy",
     "velocity_weakening": "x/(1 + x) against 1 - exp(-x): the limit at high speed is another one",
-    "creep": "three Kelvin elements of any shares against one, or five of equal shares",
+    "creep": "three Kelvin elements of any shares against one to three",
     "sensor_saturation": "range of a rounded law against the level at which the reading bends off",
     "sensor_nonlinearity": "sine and cosine against square and cube",
 }
