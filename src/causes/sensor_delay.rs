@@ -81,6 +81,9 @@ impl Effect for SensorDelay {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    fn lateness(&self, values: &[f64]) -> Option<f64> {
+        Some(values[0])
+    }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
         let course = Course::of(truth);
         let mut after = 0;

@@ -11,6 +11,7 @@ pub mod fit;
 pub mod initial;
 pub mod interval;
 pub mod lanes;
+mod late;
 pub mod linearised;
 pub mod march;
 pub mod nonnegative;

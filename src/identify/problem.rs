@@ -1,5 +1,6 @@
 //! Records prepared for identification: one judged channel, weights, whitening, one common grid.
 
+use super::late::{lateness, read_ahead};
 use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
 use super::undone::{corrected, undone};
@@ -151,21 +152,26 @@ impl Problem {
             begins: self.records[..k].iter().map(Prepared::length).sum(),
         };
         let mut input = measured.to_vec();
-        let mut peaks = record.between.peaks.clone();
+        let mut between = record.between.clone();
         let rounds = match (on_input, self.operators.form) {
             (true, Form::Play) => ROUNDS,
             (true, Form::Stop) => {
                 // What a sensor adds to the displacement follows from that alone.
-                let added = undone(effects, &mut truth, measured);
-                (input, peaks) = corrected(measured, &record.between.peaks, &added);
+                (input, between) = match lateness(effects) {
+                    Some(late) => read_ahead(record, measured, late),
+                    None => {
+                        let added = undone(effects, &mut truth, measured);
+                        corrected(measured, &record.between, &added)
+                    }
+                };
+                truth.displacement.clone_from(&input);
                 1
             }
             (false, _) => 1,
         };
         for round in 0..rounds {
             let mut march = March::new(&self.operators, coefficients, effects, cells);
-            let steps = (input.as_slice(), peaks.as_slice());
-            walk(record, steps, &mut march, |i, march, step| {
+            walk(record, (&input, &between), &mut march, |i, march, step| {
                 if let Some(i) = i {
                     truth.force[i] = step.force;
                     truth.displacement[i] = step.displacement;
@@ -177,7 +183,7 @@ impl Problem {
             if round + 1 < rounds
                 && let Some(added) = added(effects, input_place, &truth)
             {
-                (input, peaks) = corrected(measured, &record.between.peaks, &added);
+                (input, between) = corrected(measured, &record.between, &added);
             }
         }
         let judged = self.judged(&truth, effects);

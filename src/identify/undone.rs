@@ -2,7 +2,7 @@
 
 use super::march::added;
 use crate::joint::effect::{Acting, Place, Trajectory};
-use crate::record::peaks::Peak;
+use crate::record::peaks::Between;
 
 /// Rounds in which what a sensor added to the displacement is taken off, at most.
 const MOST_ROUNDS: usize = 8;
@@ -30,12 +30,12 @@ pub(super) fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64
     last
 }
 
-/// An input and its peaks between samples without what was added.
-pub(super) fn corrected(measured: &[f64], peaks: &[Peak], added: &[f64]) -> (Vec<f64>, Vec<Peak>) {
+/// An input, and what it does between samples, without what was added.
+pub(super) fn corrected(measured: &[f64], between: &Between, added: &[f64]) -> (Vec<f64>, Between) {
     let input = measured.iter().zip(added).map(|(m, a)| m - a).collect();
-    let mut peaks = peaks.to_vec();
-    for peak in &mut peaks {
+    let mut between = between.clone();
+    for peak in &mut between.peaks {
         peak.value -= 0.5 * (added[peak.before - 1] + added[peak.before]);
     }
-    (input, peaks)
+    (input, between)
 }

@@ -2,21 +2,21 @@
 
 use super::march::{March, Step};
 use super::problem::Prepared;
-use crate::record::peaks::Peak;
+use crate::record::peaks::Between;
 
 /// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
 const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
 
-/// Takes every step of a record under the given input and its peaks; `each` sees them all, with the
+/// Takes every step of a record under the given input and what it does between samples; `each` sees them all, with the
 /// sample that a step ends at, or `None` where it ends between two.
 pub(super) fn walk(
     record: &Prepared,
-    (input, peaks): (&[f64], &[Peak]),
+    (input, between): (&[f64], &Between),
     march: &mut March,
     mut each: impl FnMut(Option<usize>, &March, Step),
 ) {
-    let mut peaks = peaks.iter().peekable();
-    let mut kinks = record.between.kinks.iter().peekable();
+    let mut peaks = between.peaks.iter().peekable();
+    let mut kinks = between.kinks.iter().peekable();
     let mut since_kink = usize::MAX;
     let mut from = (0.0, 0.0);
     for (i, &driven) in input.iter().enumerate() {

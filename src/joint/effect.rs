@@ -155,6 +155,11 @@ pub trait Effect: Send + Sync {
     fn stored_energy(&self, _values: &[f64], _now: &Situation, _memory: &[f64]) -> Option<f64> {
         None
     }
+    /// [`Place::DisplacementChannel`]: time by which the channel comes late, of an effect that does nothing
+    /// else to it \[s\].
+    fn lateness(&self, _values: &[f64]) -> Option<f64> {
+        None
+    }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
     /// channel it acts on, one number per sample (measured = true + added).
     fn channel(&self, _values: &[f64], truth: &Trajectory) -> Vec<f64> {
