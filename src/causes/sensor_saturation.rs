@@ -2,13 +2,15 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 
 /// Beyond a level the reading falls behind, `U_meas = U − l(U − L₊) + l(−U − L₋)`, first by
-/// `l(d) = κ d²/2`, from `d = 1/κ` on by all of the rest; κ → ∞ is a clip.
+/// `l(d) = d (κ d)^(p−1)/p`, from `d = 1/κ` on by all of the rest; κ → ∞ is a clip, p = 2 a gain that falls in
+/// proportion.
 pub struct SensorSaturation;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "sharpness",
         symbol: "kappa",
@@ -39,16 +41,33 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "displacement towards negative U from which the reading falls behind",
     },
+    Parameter {
+        name: "onset",
+        symbol: "p",
+        unit: "1",
+        lower: 1.1,
+        upper: 16.0,
+        vanishes_at: None,
+        neutral: Some(2.0),
+        meaning: "power of the depth by which the reading falls behind; 2: the gain falls in proportion",
+    },
 ];
 
+/// Power and share of the levels from which an onset that is not in proportion is refined.
+const LATER: f64 = 4.0;
+const EARLIER: f64 = 0.6;
+
 /// Displacement that is not read at a depth beyond the level.
-fn lost(depth: f64, sharpness: f64) -> f64 {
+fn lost(depth: f64, sharpness: f64, onset: f64) -> f64 {
+    let relative = depth * sharpness;
     if depth <= 0.0 {
         0.0
-    } else if depth * sharpness < 1.0 {
-        0.5 * sharpness * depth * depth
+    } else if relative >= 1.0 {
+        depth - (1.0 - 1.0 / onset) / sharpness
+    } else if onset == 2.0 {
+        0.5 * depth * relative
     } else {
-        depth - 0.5 / sharpness
+        depth * power(relative, onset - 1.0) / onset
     }
 }
 
@@ -64,10 +83,11 @@ impl Effect for SensorSaturation {
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
         let [sharpness, positive, negative] = [values[0], values[1], values[2]];
+        let lost = |depth: f64| lost(depth, sharpness, values[3]);
         truth
             .displacement
             .iter()
-            .map(|u| lost(-u - negative, sharpness) - lost(u - positive, sharpness))
+            .map(|u| lost(-u - negative) - lost(u - positive))
             .collect()
     }
 }
@@ -84,7 +104,7 @@ impl Cause for SensorSaturation {
                 "clearance",
             ],
             separated_by: "The reading stands still while the force goes on, and leaves the level where it met it, without the hysteresis that a pinned joint keeps; the level belongs to the range of the instrument and shows on a dummy specimen.",
-            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = kappa d^2/2 up to d = 1/kappa, d - 1/(2 kappa) beyond",
+            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = d (kappa d)^(p - 1)/p up to d = 1/kappa, d - (1 - 1/p)/kappa beyond, p = 2 unless the data ask for another",
             source: "Compression and clipping of an amplifier: gain that falls linearly to nothing.",
         }
     }
@@ -98,8 +118,12 @@ impl Cause for SensorSaturation {
         both.iter()
             .chain(&one)
             .map(|level| level.map(|share| (share * scale.displacement).min(away)))
-            .map(|[positive, negative]| vec![0.2 / scale.displacement, positive, negative])
+            .map(|[positive, negative]| vec![0.2 / scale.displacement, positive, negative, 2.0])
             .collect()
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        let levels = [values[1], values[2]].map(|level| EARLIER * level);
+        vec![values[0], levels[0], levels[1], LATER]
     }
 }
 
@@ -115,11 +139,16 @@ mod tests {
             force: vec![],
             displacement: vec![-3.0, -1.0, 0.5, 2.0, 4.0],
         };
-        let clip = SensorSaturation.channel(&[1e12, 2.0, 1.5], &truth);
+        let clip = SensorSaturation.channel(&[1e12, 2.0, 1.5, 2.0], &truth);
         let expected = [1.5, 0.0, 0.0, 0.0, -2.0];
         assert!(clip.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9));
         // l(1.5) and l(2) with 1/kappa = 4: the knee is not passed.
-        let soft = SensorSaturation.channel(&[0.25, 2.0, 1.5], &truth);
+        let soft = SensorSaturation.channel(&[0.25, 2.0, 1.5, 2.0], &truth);
         assert_eq!(soft, [0.125 * 2.25, 0.0, 0.0, 0.0, -0.5]);
+        // A later onset loses less within the knee, and goes on straight behind it.
+        let later = SensorSaturation.channel(&[0.25, 2.0, 1.5, 4.0], &truth);
+        assert!((later[4] + 2.0 * 0.125 / 4.0).abs() < 1e-15, "{later:?}");
+        let (before, behind) = (lost(4.0 - 1e-9, 0.25, 4.0), lost(4.0 + 1e-9, 0.25, 4.0));
+        assert!((before - 1.0).abs() < 1e-8 && (behind - 1.0).abs() < 1e-8);
     }
 }
