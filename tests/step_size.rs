@@ -58,7 +58,7 @@ fn causes_without_a_history_of_their_own_answer_alike_at_any_step() {
         acting("clearance", &[2e-6, 20.0]),
         acting("slack_growth", &[1e-8, 100.0, 20.0]),
         acting("cubic_stiffness", &[1e-14, 1e-5]),
-        acting("joint_opening", &[2e-9, 50.0]),
+        acting("joint_opening", &[2e-9, 50.0, 0.0]),
         acting("asymmetric_friction", &[0.2]),
     ];
     for case in cases {

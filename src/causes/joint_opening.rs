@@ -2,13 +2,15 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
 
 /// A compliance that acts beyond a force on one side only: `δ = c max(F − F_o, 0)` for `F_o ≥ 0`,
-/// `δ = −c max(F_o − F, 0)` for `F_o < 0`.
+/// `δ = −c max(F_o − F, 0)` for `F_o < 0`; where the surfaces part little by little, max(x, 0) is rounded to
+/// `g(x) = (x + √(x² + r²))/2`, less what it is at no force.
 pub struct JointOpening;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "compliance",
         symbol: "c_o",
@@ -29,7 +31,29 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: None,
         meaning: "force at which the surfaces part; its sign tells the side that opens",
     },
+    Parameter {
+        name: "rounding",
+        symbol: "r",
+        unit: "N",
+        lower: 0.0,
+        upper: 1e9,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "force over which the surfaces part; 0: at once",
+    },
 ];
+
+/// Share of the largest force from which a rounding is refined.
+const LITTLE_BY_LITTLE: f64 = 0.05;
+
+/// max(x, 0) rounded over `r`, and its slope.
+fn rounded(x: f64, r: f64) -> (f64, f64) {
+    if r == 0.0 {
+        return (x.max(0.0), if x > 0.0 { 1.0 } else { 0.0 });
+    }
+    let root = (square(x) + square(r)).sqrt();
+    (0.5 * (x + root), 0.5 * (1.0 + x / root))
+}
 
 impl Effect for JointOpening {
     fn name(&self) -> &'static str {
@@ -45,15 +69,13 @@ impl Effect for JointOpening {
         PARAMETERS[parameter].name == "opening_force"
     }
     fn spring(&self, values: &[f64], force: f64) -> Response {
-        let [compliance, opens] = [values[0], values[1]];
-        let beyond = if opens >= 0.0 {
-            (force - opens).max(0.0)
-        } else {
-            (force - opens).min(0.0)
-        };
+        let [compliance, opens, rounding] = [values[0], values[1], values[2]];
+        let side = if opens >= 0.0 { 1.0 } else { -1.0 };
+        let (beyond, slope) = rounded(side * (force - opens), rounding);
+        let (at_rest, _) = rounded(-side * opens, rounding);
         Response {
-            value: compliance * beyond,
-            slope: if beyond == 0.0 { 0.0 } else { compliance },
+            value: side * compliance * (beyond - at_rest),
+            slope: compliance * slope,
             damping: 0.0,
         }
     }
@@ -71,7 +93,7 @@ impl Cause for JointOpening {
                 "pinning",
             ],
             separated_by: "The kink sits at a force, not at a displacement, and adds no area; below the opening force the baseline is exact; a normal load that follows the force changes the area of the loops too.",
-            formula: "U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0",
+            formula: "U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2",
             source: "Preloaded bolted joint beyond separation, VDI 2230; bilinear spring.",
         }
     }
@@ -82,8 +104,11 @@ impl Cause for JointOpening {
         let compliance = 0.01 * scale.displacement / scale.force;
         [0.02, -0.02, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75]
             .iter()
-            .map(|share| vec![compliance, share * scale.force])
+            .map(|share| vec![compliance, share * scale.force, 0.0])
             .collect()
+    }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        vec![values[0], values[1], LITTLE_BY_LITTLE * scale.force]
     }
 }
 
@@ -93,12 +118,29 @@ mod tests {
 
     #[test]
     fn it_is_softer_beyond_the_opening_force_and_there_only() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0], force);
         assert_eq!((at(3.0, 5.0).value, at(3.0, 5.0).slope), (4.0, 2.0));
         assert_eq!(at(3.0, -5.0), Response::default());
         assert_eq!((at(-3.0, -5.0).value, at(-3.0, -5.0).slope), (-4.0, 2.0));
         assert_eq!(at(-3.0, 5.0), Response::default());
         assert_eq!(at(0.0, 1.0).value, 2.0);
         assert_eq!(at(0.0, -1.0).value, 0.0);
+    }
+
+    #[test]
+    fn a_rounding_parts_the_surfaces_little_by_little() {
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0], force);
+        for opens in [3.0, -3.0] {
+            assert_eq!(at(opens, 0.0).value, 0.0);
+            let far = at(opens, 1e6 * opens).value - 2.0 * (1e6 - 1.0) * opens;
+            assert!(far.abs() < 2.1, "{far}");
+            for force in [-7.0, -0.1, 2.0, 9.0] {
+                let step = 1e-6;
+                let rise = at(opens, force + step).value - at(opens, force - step).value;
+                assert!((rise / (2.0 * step) - at(opens, force).slope).abs() < 1e-8);
+            }
+        }
+        // g(0) = r/2 at the opening force, less g(-3) = (5 - 3)/2.
+        assert_eq!(at(3.0, 3.0).value, 2.0 * (2.0 - 1.0));
     }
 }

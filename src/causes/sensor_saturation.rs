@@ -6,8 +6,8 @@ use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 
 /// Beyond a level the reading falls behind, `U_meas = U − l(U − L₊) + l(−U − L₋)`, first by
-/// `l(d) = d (κ d)^(p−1)/p`, from `d = 1/κ` on by all of the rest; κ → ∞ is a clip, p = 2 a gain that falls in
-/// proportion.
+/// `l(d) = κ L (d/L)^(p−1) d/p` with L the mean of the levels, by `κ d²/2` where p = 2; from where `dl/dd = 1` on by
+/// all of the rest. κ → ∞ is a clip.
 pub struct SensorSaturation;
 
 static PARAMETERS: [Parameter; 4] = [
@@ -19,7 +19,7 @@ static PARAMETERS: [Parameter; 4] = [
         upper: 1e12,
         vanishes_at: Some(0.0),
         neutral: None,
-        meaning: "one over the displacement from the level to where nothing more is read; large for a clip",
+        meaning: "one over the displacement from the level to where nothing more is read (onset 2); large for a clip",
     },
     Parameter {
         name: "level_positive",
@@ -49,25 +49,50 @@ static PARAMETERS: [Parameter; 4] = [
         upper: 16.0,
         vanishes_at: None,
         neutral: Some(2.0),
-        meaning: "power of the depth by which the reading falls behind; 2: the gain falls in proportion",
+        meaning: "power of the depth with which the reading falls behind; 2: the gain falls in proportion",
     },
 ];
 
-/// Power and share of the levels from which an onset that is not in proportion is refined.
-const LATER: f64 = 4.0;
-const EARLIER: f64 = 0.6;
+/// Power from which an onset that is not in proportion is refined.
+const LATER: f64 = 3.0;
 
-/// Displacement that is not read at a depth beyond the level.
-fn lost(depth: f64, sharpness: f64, onset: f64) -> f64 {
-    let relative = depth * sharpness;
-    if depth <= 0.0 {
-        0.0
-    } else if relative >= 1.0 {
-        depth - (1.0 - 1.0 / onset) / sharpness
-    } else if onset == 2.0 {
-        0.5 * depth * relative
-    } else {
-        depth * power(relative, onset - 1.0) / onset
+/// How the reading falls behind at a depth beyond a level.
+struct Knee {
+    sharpness: f64,
+    level: f64,
+    onset: f64,
+    /// Depth from which nothing more is read.
+    end: f64,
+}
+
+impl Knee {
+    fn of(values: &[f64]) -> Knee {
+        let [sharpness, positive, negative, onset] = [values[0], values[1], values[2], values[3]];
+        let level = 0.5 * (positive + negative);
+        let end = match onset == 2.0 {
+            true => 1.0 / sharpness,
+            false => level * power(sharpness * level, 1.0 / (1.0 - onset)),
+        };
+        Knee {
+            sharpness,
+            level,
+            onset,
+            end,
+        }
+    }
+
+    /// Displacement that is not read at a depth.
+    fn lost(&self, depth: f64) -> f64 {
+        if depth <= 0.0 || self.sharpness == 0.0 {
+            0.0
+        } else if depth >= self.end {
+            depth - (1.0 - 1.0 / self.onset) * self.end
+        } else if self.onset == 2.0 {
+            0.5 * self.sharpness * depth * depth
+        } else {
+            let relative = power(depth / self.level, self.onset - 1.0);
+            self.sharpness * self.level * relative * depth / self.onset
+        }
     }
 }
 
@@ -82,12 +107,12 @@ impl Effect for SensorSaturation {
         &PARAMETERS
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let [sharpness, positive, negative] = [values[0], values[1], values[2]];
-        let lost = |depth: f64| lost(depth, sharpness, values[3]);
+        let [positive, negative] = [values[1], values[2]];
+        let knee = Knee::of(values);
         truth
             .displacement
             .iter()
-            .map(|u| lost(-u - negative) - lost(u - positive))
+            .map(|u| knee.lost(-u - negative) - knee.lost(u - positive))
             .collect()
     }
 }
@@ -104,7 +129,7 @@ impl Cause for SensorSaturation {
                 "clearance",
             ],
             separated_by: "The reading stands still while the force goes on, and leaves the level where it met it, without the hysteresis that a pinned joint keeps; the level belongs to the range of the instrument and shows on a dummy specimen.",
-            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = d (kappa d)^(p - 1)/p up to d = 1/kappa, d - (1 - 1/p)/kappa beyond, p = 2 unless the data ask for another",
+            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = kappa d^2/2 up to d = 1/kappa, d - 1/(2 kappa) beyond; where the data ask for another onset kappa L (d/L)^(p - 1) d/p, L the mean of the levels, until dl/dd = 1",
             source: "Compression and clipping of an amplifier: gain that falls linearly to nothing.",
         }
     }
@@ -122,8 +147,7 @@ impl Cause for SensorSaturation {
             .collect()
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        let levels = [values[1], values[2]].map(|level| EARLIER * level);
-        vec![values[0], levels[0], levels[1], LATER]
+        vec![values[0], values[1], values[2], LATER]
     }
 }
 
@@ -147,8 +171,12 @@ mod tests {
         assert_eq!(soft, [0.125 * 2.25, 0.0, 0.0, 0.0, -0.5]);
         // A later onset loses less within the knee, and goes on straight behind it.
         let later = SensorSaturation.channel(&[0.25, 2.0, 1.5, 4.0], &truth);
-        assert!((later[4] + 2.0 * 0.125 / 4.0).abs() < 1e-15, "{later:?}");
-        let (before, behind) = (lost(4.0 - 1e-9, 0.25, 4.0), lost(4.0 + 1e-9, 0.25, 4.0));
-        assert!((before - 1.0).abs() < 1e-8 && (behind - 1.0).abs() < 1e-8);
+        let expected = 0.25 * 1.75 * (2.0 / 1.75_f64).powi(3) * 2.0 / 4.0;
+        assert!((later[4] + expected).abs() < 1e-15, "{later:?}");
+        let knee = Knee::of(&[0.25, 2.0, 1.5, 4.0]);
+        let slope = |d: f64| (knee.lost(d + 1e-7) - knee.lost(d - 1e-7)) / 2e-7;
+        assert!((slope(knee.end - 1e-6) - 1.0).abs() < 1e-5);
+        assert!((slope(knee.end + 1e-6) - 1.0).abs() < 1e-5);
+        assert!((slope(knee.end) - 1.0).abs() < 1e-5);
     }
 }

@@ -67,7 +67,7 @@ OTHERS = {
     "clearance": {"gap": 2e-6, "seating_force": 20.0},
     "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0},
     "cubic_stiffness": {"cubic_compliance": 1e-15, "levelling": 1e-7},
-    "joint_opening": {"compliance": 2e-9, "opening_force": 50.0},
+    "joint_opening": {"compliance": 2e-9, "opening_force": 50.0, "rounding": 5.0},
     "asymmetric_friction": {"asymmetry": 0.1},
     "normal_load_variation": {"sensitivity": 1e-4, "displacement_weight": 0.0},
     "preload_loss": {"loss": 0.1, "energy": 1.0, "tail": 0.3, "per_path": 10.0},
