@@ -6,6 +6,7 @@ mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
+mod growing;
 pub mod intervals;
 pub mod joint_parameters;
 pub mod left_out;

@@ -1,0 +1,200 @@
+//! Sets of causes, grown forward from the baseline and from other first causes, and pruned backward.
+
+use super::places::{self, NEARLY};
+use super::prepare::Bench;
+use super::search::MOST;
+use super::tested::Prospect;
+use super::trials::{ALARM, Effort, Trial, dispersion, trials};
+use crate::identify::{Fit, Problem};
+
+/// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
+/// the named cause's law being only nearly right.
+const FURTHER_SHARE: f64 = 0.10;
+
+/// Part of that share which is enough of a set that leaves nothing beyond scatter.
+const COMPLETE: f64 = 0.3;
+
+/// Share of its rows, beyond scatter, from which what a set leaves may be a second cause.
+const STRUCTURE: f64 = 0.05;
+
+/// Share of its rows below which no misfit falls: the noise may have been estimated too large, by a
+/// factor of 1.4 at most.
+const OVERRATED: f64 = 0.5;
+
+/// Causes, best first, whose prediction of held-out cycles is looked at in one round.
+const PREDICTORS: usize = 4;
+
+/// First causes, best first, beside which a second one is looked for where the set leaves structure.
+const BEGINNINGS: usize = 4;
+
+/// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
+///
+/// The first cause that is taken need not be of the true set: one that is neither of two may take more than
+/// each of them. Where the set leaves structure, it is grown from other first causes as well.
+pub(super) fn grown(
+    bench: &Bench,
+    timed: bool,
+    baseline: &Fit,
+    effort: Effort,
+) -> (Fit, Vec<Trial>) {
+    let least = least(&bench.train, baseline);
+    let grow = Grow {
+        bench,
+        timed,
+        effort,
+        least,
+    };
+    let trials = trials(
+        &bench.train,
+        &bench.scale,
+        timed,
+        baseline,
+        (effort, f64::INFINITY),
+    );
+    let Some(one) = grow.next(baseline, &trials, f64::INFINITY) else {
+        return (baseline.clone(), trials);
+    };
+    let mut best = grow.on(one, &trials);
+    if effort == Effort::Full
+        && grow.leaves_another(baseline, &best)
+        && let Some(two) = grow.elsewhere(&best, &trials)
+    {
+        best = grow.on(two, &trials);
+    }
+    (best, trials)
+}
+
+/// How sets grow.
+struct Grow<'a> {
+    bench: &'a Bench,
+    timed: bool,
+    effort: Effort,
+    /// Misfit that one cause of several has to take away.
+    least: f64,
+}
+
+impl Grow<'_> {
+    /// The set with the trial that lowers the squared error most, held-out samples included, of those with
+    /// enough evidence that [`Prospect::holds`] lets pass.
+    fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
+        let mut promising = trials
+            .iter()
+            .filter(|t| t.evidence >= ALARM && t.fit.misfit < enough);
+        let next = match self.effort {
+            Effort::Quick => promising.next(),
+            Effort::Full => promising
+                .take(PREDICTORS)
+                .map(|t| (t, Prospect::of(self.bench, current, &t.fit)))
+                .filter(|(_, prospect)| prospect.holds())
+                .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))
+                .map(|(t, _)| t),
+        };
+        next.map(|t| t.fit.clone())
+    }
+
+    /// Trials beside a set; `enough` is the misfit that a further cause must reach.
+    fn beside(&self, current: &Fit, (effort, enough): (Effort, f64)) -> Vec<Trial> {
+        let Grow { bench, timed, .. } = *self;
+        trials(&bench.train, &bench.scale, timed, current, (effort, enough))
+    }
+
+    /// Adds causes to a set of one or two. A second cause stays until the places of both have been looked at.
+    fn on(&self, mut current: Fit, first: &[Trial]) -> Fit {
+        let problem = &self.bench.train;
+        while current.effects.len() < MOST {
+            let enough = match current.effects.len() {
+                1 => current.misfit - self.least.min(0.5 * structure(problem, &current)),
+                _ => current.misfit - self.least,
+            };
+            if enough < OVERRATED * problem.rows() as f64 {
+                break;
+            }
+            let trials = self.beside(&current, (self.effort, enough));
+            let second = current.effects.len() == 1;
+            match self.next(&current, &trials, enough) {
+                Some(fit) if second => current = fit,
+                Some(fit) => {
+                    current = prune(problem, fit, self.least, first);
+                    break;
+                }
+                None => break,
+            }
+        }
+        current
+    }
+
+    /// True where a set leaves structure, and more than the laws of the right causes may be wrong by.
+    fn leaves_another(&self, baseline: &Fit, best: &Fit) -> bool {
+        let problem = &self.bench.train;
+        let wrong_by = NEARLY * (baseline.misfit - problem.rows() as f64);
+        structure(problem, best).is_finite() && places::beyond_scatter(problem, best) > wrong_by
+    }
+
+    /// The best pair that begins with a first cause outside of the set, if it is better than the set.
+    fn elsewhere(&self, best: &Fit, first: &[Trial]) -> Option<Fit> {
+        let mut beginnings: Vec<&Trial> = first
+            .iter()
+            .filter(|t| t.plausible && t.evidence >= ALARM)
+            .filter(|t| {
+                best.effects
+                    .iter()
+                    .all(|a| a.effect.name() != t.cause.name())
+            })
+            .collect();
+        beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
+        let least = ALARM * dispersion(&self.bench.train, best);
+        let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
+            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit));
+            self.next(&one.fit, &trials, best.misfit)
+        });
+        pairs
+            .map(|pair| (Prospect::of(self.bench, best, &pair).total(), pair))
+            .filter(|(gain, _)| *gain > least)
+            .max_by(|(a, _), (b, _)| a.total_cmp(b))
+            .map(|(_, pair)| pair)
+    }
+}
+
+/// Misfit that noise alone does not leave; without end where a set leaves no such.
+///
+/// Half of it is enough for a second cause to be looked at: two that explain all may each beside the
+/// other bring what neither brings beside a first one that is neither of them.
+fn structure(problem: &Problem, fit: &Fit) -> f64 {
+    let left = places::beyond_scatter(problem, fit);
+    if left > STRUCTURE * problem.rows() as f64 {
+        left
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Misfit that one cause of several has to take away beside the others.
+pub(super) fn least(problem: &Problem, baseline: &Fit) -> f64 {
+    FURTHER_SHARE * (baseline.misfit - problem.rows() as f64).max(0.0)
+}
+
+/// Misfit that each of several causes has to take away: enough evidence, and its share, which is
+/// smaller the less they leave together: a law that is only nearly right is not mended wholly by another's.
+pub(super) fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
+    let left = places::beyond_scatter(problem, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
+    let least = least * (COMPLETE + (1.0 - COMPLETE) * left.min(1.0));
+    least.max(ALARM * dispersion(problem, fit))
+}
+
+/// Drops causes that the others have made needless; `least` is what one has to take away.
+pub(super) fn prune(problem: &Problem, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
+    while fit.effects.len() > 1 {
+        let without: Option<Fit> = (0..fit.effects.len())
+            .map(|drop| {
+                let mut effects = fit.effects.clone();
+                effects.remove(drop);
+                places::alone(problem, &fit, effects, first)
+            })
+            .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        match without {
+            Some(less) if less.misfit - fit.misfit < share(problem, &fit, least) => fit = less,
+            _ => break,
+        }
+    }
+    fit
+}
