@@ -45,7 +45,8 @@ static PARAMETERS: [Parameter; 4] = [
         name: "onset",
         symbol: "p",
         unit: "1",
-        lower: 1.1,
+        // Below 2 the gain falls by a jump: that is a stiffer stage, not the end of a range.
+        lower: 2.0,
         upper: 16.0,
         vanishes_at: None,
         neutral: Some(2.0),
