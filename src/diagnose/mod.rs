@@ -113,7 +113,13 @@ const TAKES: f64 = 0.25;
 fn sober(bench: &Bench, found: Found) -> Found {
     let beyond = found.baseline.misfit - bench.train.rows() as f64;
     let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
-    let left = || structure(&bench.train, &found.best.predict(&bench.train));
+    let left = || {
+        structure(
+            &bench.train,
+            &found.best.predict(&bench.train),
+            &bench.noise,
+        )
+    };
     if takes_little && left().is_seen() {
         return Found {
             best: found.baseline.clone(),
@@ -139,9 +145,13 @@ fn assemble(
         true => whole_base.clone(),
         false => refit(&bench.whole, &found.best, found.best.effects.clone()),
     };
-    let structure_before = structure(&bench.whole, &whole_base.predict(&bench.whole));
+    let structure_before = structure(
+        &bench.whole,
+        &whole_base.predict(&bench.whole),
+        &bench.noise,
+    );
     let modelled = whole.predict(&bench.whole);
-    let structure_after = structure(&bench.whole, &modelled);
+    let structure_after = structure(&bench.whole, &modelled, &bench.noise);
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let timed = records.iter().all(|r| r.time.is_some());

@@ -150,7 +150,7 @@ impl Bench {
         let independent: f64 = self
             .noise
             .iter()
-            .map(|n| (n.autoregression.powi(2), n.samples as f64))
+            .map(|n| (n.autoregression.powi(2), n.told_by()))
             .map(|(square, samples)| samples * (1.0 - square) / (1.0 + square))
             .sum();
         let scatter = (2.0 / independent.max(1.0)).sqrt();

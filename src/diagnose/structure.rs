@@ -3,6 +3,7 @@
 use crate::identify::weighing::whiten;
 use crate::identify::{Prediction, Problem};
 use crate::record::cycles::{alike, cycles};
+use crate::record::noise::Noise;
 
 /// What a model leaves, split into noise and structure.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +56,21 @@ const LOUDEST: f64 = 25.0;
 /// Bins the whitened residual by record × load level × phase (what repeats with the load), and by
 /// record × cycle (what wanders from cycle to cycle), and compares the means with the scatter
 /// within.
-pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
+///
+/// Noise more alike than it was taken for wanders where it should be white, so structure is what stands
+/// out by the largest correlation that the noise may have as well: the lesser of both is told.
+pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
+    let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
+    let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
+    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, &a));
+    if alike.significance < taken.significance {
+        alike
+    } else {
+        taken
+    }
+}
+
+fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
     let mut correlations: Vec<f64> = Vec::new();
     for (k, prediction) in predictions.iter().enumerate() {
@@ -64,7 +79,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         let mut white = Vec::with_capacity(judged.len());
         let mut before = None;
         for (i, (&y, &p)) in judged.iter().zip(&prediction.judged).enumerate() {
-            white.push(whiten(record.autoregression, y - p, before).0);
+            white.push(whiten(alike[k], y - p, before).0);
             before = record.counts(i).then_some(y - p);
         }
         correlations.push(neighbours(&white));
@@ -104,6 +119,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
         .map(|b| b.sum * b.sum / b.count / variance / alike_noise(correlations[b.record]))
         .map(|square| square.min(LOUDEST))
         .sum();
+    let (mean, scatter) = quiet(&bins, variance);
     let mut places: Vec<Place> = bins
         .iter()
         .map(|b| Place {
@@ -117,10 +133,20 @@ pub fn structure(problem: &Problem, predictions: &[Prediction]) -> Structure {
     places.truncate(5);
     Structure {
         share: (excess / total).max(0.0),
-        significance: (heard - count) / (2.0 * count).sqrt(),
+        significance: (heard - mean) / scatter,
         correlation,
         places,
     }
+}
+
+/// Mean and standard deviation of the sum of the bins' squares, in the pooled variance, where bins differ by
+/// noise alone, which may be louder in some: `Σ v` and `√(2 Σ v² n/(n+1))`, without bias for the normal
+/// distribution.
+fn quiet(bins: &[Bin], pooled: f64) -> (f64, f64) {
+    let own = |b: &Bin| (b.square - b.sum * b.sum / b.count) / (b.count - 1.0) / pooled;
+    let mean = bins.iter().map(own).sum();
+    let square = |b: &Bin| 2.0 * own(b).powi(2) * b.count / (b.count + 1.0);
+    (mean, bins.iter().map(square).sum::<f64>().sqrt())
 }
 
 /// Lag-one correlation about the means of short stretches, so that slow structure does not pass for

@@ -15,6 +15,33 @@ pub struct Noise {
     pub repeated: bool,
 }
 
+impl Noise {
+    /// Independent samples of white noise that would tell as much: second differences of neighbouring
+    /// triples share cycles, by which a variance from them scatters [`SHARED`] times as much.
+    pub fn told_by(&self) -> f64 {
+        let samples = self.samples as f64;
+        if self.repeated {
+            samples / SHARED
+        } else {
+            samples
+        }
+    }
+
+    /// The largest correlation of neighbours within two standard errors, `√((1 − a²)/n)` each (Bartlett).
+    pub fn most_alike(&self) -> f64 {
+        let a = self.autoregression;
+        let error = ((1.0 - a * a) / self.told_by().max(1.0)).sqrt();
+        (a + 2.0 * error).min(MOST_ALIKE.max(a))
+    }
+}
+
+/// Ratio `1 + 2 (4² + 1²)/6²` of variances: second differences `(1, −2, 1)` one cycle apart correlate
+/// by −4/6, two apart by 1/6.
+const SHARED: f64 = 35.0 / 18.0;
+
+/// Correlation of neighbours that noise is taken for at most.
+const MOST_ALIKE: f64 = 0.99;
+
 /// What a sample counts for in a mean whose neighbours vary with it.
 pub fn independence(autoregression: f64) -> f64 {
     (1.0 - autoregression) / (1.0 + autoregression)
@@ -76,7 +103,7 @@ pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
     (
         (square / count).sqrt(),
         if significant {
-            correlation.min(0.99)
+            correlation.min(MOST_ALIKE)
         } else {
             0.0
         },
