@@ -24,6 +24,10 @@ const OVERRATED: f64 = 0.5;
 /// Causes, best first, whose prediction of held-out cycles is looked at in one round.
 const PREDICTORS: usize = 4;
 
+/// Share of what a set leaves beyond noise that a pair grown from another first cause has to take: two that
+/// are the true ones take nearly all of it, and settling a set that is no better is work for nothing.
+const WORTH_SETTLING: f64 = 1.0 / 3.0;
+
 /// First causes, best first, beside which a second one is looked for where the set leaves structure.
 const BEGINNINGS: usize = 4;
 
@@ -143,9 +147,11 @@ impl Grow<'_> {
             .collect();
         beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
         let least = ALARM * dispersion(&self.bench.train, best);
+        let beyond = best.misfit - self.bench.train.rows() as f64;
+        let enough = best.misfit - WORTH_SETTLING * beyond;
         let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
             let trials = self.beside(&one.fit, (Effort::Quick, best.misfit));
-            self.next(&one.fit, &trials, best.misfit)
+            self.next(&one.fit, &trials, enough)
         });
         pairs
             .map(|pair| (Prospect::of(self.bench, best, &pair).total(), pair))

@@ -19,8 +19,15 @@ pub struct Place {
 }
 
 /// The places of a set, in the order of its effects; `first` are the trials beside the baseline, which
-/// are those of a single cause's place.
-pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Place> {
+/// are those of a single cause's place, and `known` those of the last place, where the others have not
+/// changed since they were made.
+pub fn places(
+    bench: &Bench,
+    timed: bool,
+    best: &Fit,
+    first: &[Trial],
+    mut known: Option<Vec<Trial>>,
+) -> Vec<Place> {
     let problem = &bench.train;
     let unseen = match best.effects.len() {
         0 | 1 => 0.0,
@@ -32,8 +39,10 @@ pub fn places(bench: &Bench, timed: bool, best: &Fit, first: &[Trial]) -> Vec<Pl
             let named = others.remove(place).effect.name();
             let brought = alone(problem, best, others, first).misfit - best.misfit;
             let wanted = as_well(problem, best, brought).max(best.misfit + unseen);
-            let trials = match best.effects.len() {
-                1 => first.to_vec(),
+            let known = known.take_if(|_| place + 1 == best.effects.len());
+            let trials = match (best.effects.len(), known) {
+                (_, Some(known)) => known,
+                (1, None) => first.to_vec(),
                 // The others as they are beside the named one: refitted without it they take parts of it.
                 _ => trials(
                     problem,
@@ -67,16 +76,17 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
 }
 
 /// The set with one cause exchanged for another that lowers the squared error most, held-out samples
-/// included: a cause was chosen before those that came after it were known.
-pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<Fit> {
+/// included: a cause was chosen before those that came after it were known. The new one comes last, and
+/// its place's trials come along.
+pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
     let least = ALARM * dispersion(&bench.train, best);
     places
         .iter()
-        .flat_map(Place::others)
-        .map(|t| (Prospect::of(bench, best, &t.fit).total(), &t.fit))
-        .filter(|(gain, _)| *gain > least)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, fit)| fit.clone())
+        .flat_map(|place| place.others().map(move |t| (place, &t.fit)))
+        .map(|(place, fit)| (Prospect::of(bench, best, fit).total(), place, fit))
+        .filter(|(gain, ..)| *gain > least)
+        .max_by(|(a, ..), (b, ..)| a.total_cmp(b))
+        .map(|(_, place, fit)| (fit.clone(), place.trials.clone()))
 }
 
 impl Place {

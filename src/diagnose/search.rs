@@ -38,7 +38,7 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
     let (settled, mut places) = settled(bench, timed, least, best, &first);
     let best = tested(bench, &baseline, settled.clone());
     if best.effects != settled.effects {
-        places = places::places(bench, timed, &best, &first);
+        places = places::places(bench, timed, &best, &first, None);
     }
     let scale = dispersion(&bench.train, &best);
     Found {
@@ -63,21 +63,21 @@ fn settled(
     mut best: Fit,
     first: &[Trial],
 ) -> (Fit, Vec<Place>) {
-    let mut places = places::places(bench, timed, &best, first);
+    let mut places = places::places(bench, timed, &best, first, None);
     for _ in 0..MOST {
         if best.effects.len() < 2 {
             break;
         }
-        let Some(better) = places::exchanged(bench, &best, &places) else {
+        let Some((better, known)) = places::exchanged(bench, &best, &places) else {
             break;
         };
         best = better;
-        places = places::places(bench, timed, &best, first);
+        places = places::places(bench, timed, &best, first, Some(known));
     }
     let share = share(&bench.train, &best, least);
     if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
         best = prune(&bench.train, best, least, first);
-        places = places::places(bench, timed, &best, first);
+        places = places::places(bench, timed, &best, first, None);
     }
     (best, places)
 }
