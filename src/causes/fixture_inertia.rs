@@ -5,6 +5,7 @@ use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{sin, square};
 use crate::joint::parameters::Parameter;
+use crate::joint::passed::Passed;
 
 /// The load cell reads the force that moves a mass as well, `F_meas = F + m Ü`.
 pub struct FixtureInertia;
@@ -48,7 +49,7 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
         1.0
     };
     let course = Course::of(truth);
-    let mut places = [0; 5];
+    let mut places = [Passed::default(); 5];
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));

@@ -2,10 +2,8 @@
 
 use super::problem::Prepared;
 use crate::joint::effect::{Acting, Place};
-use crate::record::peaks::{Between, Peak};
-
-/// Share of a step within which a corner falls on a sample.
-const SAMPLED: f64 = 1e-3;
+use crate::joint::passed::Passed;
+use crate::record::peaks::{Between, Peak, is_between};
 
 /// Time by which the displacement comes late; `None` where something else acts on it as well.
 pub(super) fn lateness(effects: &[Acting]) -> Option<f64> {
@@ -29,7 +27,7 @@ pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec
         time,
         measured,
         corners: &corners,
-        after: 0,
+        passed: Passed::default(),
     };
     let input: Vec<f64> = time.iter().map(|t| course.at(t + late)).collect();
     let mut found = Between::default();
@@ -40,7 +38,7 @@ pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec
         }
         let step = time[before] - time[before - 1];
         let within = (peak - time[before - 1]) / step;
-        if within > SAMPLED && within < 1.0 - SAMPLED {
+        if is_between(within) {
             found.peaks.push(Peak {
                 before,
                 ahead: time[before] - peak,
@@ -58,11 +56,7 @@ pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec
     for corner in &corners {
         put(corner.time - late, corner.value, true);
     }
-    found.peaks.sort_by_key(|peak| peak.before);
-    found.peaks.dedup_by_key(|peak| peak.before);
-    found.kinks.sort_unstable();
-    found.kinks.dedup();
-    (input, found)
+    (input, found.in_order())
 }
 
 /// A point at which the rate jumps.
@@ -99,20 +93,13 @@ struct Course<'a> {
     time: &'a [f64],
     measured: &'a [f64],
     corners: &'a [Corner],
-    /// Samples that are no later than the last time asked for: times that follow each other find it next door.
-    after: usize,
+    passed: Passed,
 }
 
 impl Course<'_> {
     fn at(&mut self, time: f64) -> f64 {
         let (t, u) = (self.time, self.measured);
-        while t.get(self.after).is_some_and(|&sample| sample <= time) {
-            self.after += 1;
-        }
-        while self.after > 0 && t[self.after - 1] > time {
-            self.after -= 1;
-        }
-        let after = self.after;
+        let after = self.passed.at(t, time);
         if after == 0 || t.len() < 4 {
             return u[after.saturating_sub(1)];
         }

@@ -23,6 +23,15 @@ pub struct Between {
 }
 
 impl Between {
+    /// The same in order, at most one of a kind per interval.
+    pub fn in_order(mut self) -> Between {
+        self.peaks.sort_by_key(|peak| peak.before);
+        self.peaks.dedup_by_key(|peak| peak.before);
+        self.kinks.sort_unstable();
+        self.kinks.dedup();
+        self
+    }
+
     /// The same beside the samples kept of a record, by their indices; `time` is the whole record's.
     pub fn thin(&mut self, kept: &[usize], time: &[f64]) {
         let behind = |sample: usize| kept.partition_point(|&i| i < sample);
@@ -96,11 +105,12 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
             found.peaks.push(place(left, at.rem_euclid(1.0), value));
         }
     }
-    found.peaks.sort_by_key(|peak| peak.before);
-    found.peaks.dedup_by_key(|peak| peak.before);
-    found.kinks.sort_unstable();
-    found.kinks.dedup();
-    found
+    found.in_order()
+}
+
+/// True for a share of a step that lies between its samples.
+pub fn is_between(within: f64) -> bool {
+    within > SAMPLED && within < 1.0 - SAMPLED
 }
 
 fn bend(channel: &[f64], i: usize) -> f64 {
@@ -146,7 +156,7 @@ fn meeting(channel: &[f64], left: usize) -> Meeting {
     let nearest = if within < 0.5 { left } else { right };
     if (within - (nearest - left) as f64).abs() * (rise - fall).abs() <= astray {
         Meeting::Sampled(nearest)
-    } else if within > SAMPLED && within < 1.0 - SAMPLED {
+    } else if is_between(within) {
         Meeting::Between(within, value)
     } else {
         Meeting::Nowhere
