@@ -78,11 +78,11 @@ def _single_figures(summary):
         ],
         [
             "expected error of the first name's probability",
-            _number(cal["first_name"]["expected_error"]),
+            _calibration(cal["first_name"]),
         ],
         [
             "… clean records and foreign effects counted",
-            _number(cal["first_name_of_all_cases"]["expected_error"]),
+            _calibration(cal["first_name_of_all_cases"]),
         ],
         ["median error of comparable parameters", _number(same["median_error"])],
         ["their 95 % intervals hold the truth", _of(same["covered"])],
@@ -96,6 +96,11 @@ def _single_figures(summary):
     ]
     rows = [row for row in rows if "–" not in row[1]]
     return _table(["over all", ""], rows) if rows else []
+
+
+def _calibration(one):
+    right, most = _number(one["of_right_ones"]), _number(one["most_of_right_ones"])
+    return f"{_number(one['expected_error'])} (right ones of {one['of']}: {right}, up to {most})"
 
 
 def _before_after(one):

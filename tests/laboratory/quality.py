@@ -1,11 +1,14 @@
 """What the marks of many cases say about the finder: rates, calibration, errors, coverage."""
 
+from random import Random
+
 from .parameters import NOT_COMPARABLE, compare
 from .score import matrix, median, pair_totals, share, totals
 
 POWER_LAWS = {"power_law", "uniform_with_tip"}  # the form of the four-parameter joint
 SEPARABLE = 25.0  # chi squared that the nearest rival leaves
 BINS = 10
+DRAWS = 1000  # of what probabilities would show if they were right
 NEAR = 1.05  # held-out error over the noise that counts as nothing left to explain
 
 
@@ -99,18 +102,45 @@ def unknowns(cases):
 
 def reliability(stated):
     """Stated probabilities against how often they came true, in equal bins; `stated` holds pairs
-    of probability and truth. `expected_error` weighs each bin's difference by its count."""
-    bins, error = [], 0.0
-    for j in range(BINS):
-        low, high = j / BINS, (j + 1) / BINS
-        inside = [(p, t) for p, t in stated if low <= p < high or (j == BINS - 1 and p >= high)]
-        if not inside:
-            continue
+    of probability and truth. `expected_error` weighs each bin's difference by its count;
+    `of_right_ones` is what it would be on average if each came true as often as stated, which few
+    cases do not bring to zero, and `most_of_right_ones` its 95 % quantile."""
+    bins = []
+    for j, inside in _binned(stated):
         mean = sum(p for p, _ in inside) / len(inside)
         came_true = share(sum(t for _, t in inside), len(inside))
-        error += len(inside) / len(stated) * abs(mean - came_true["share"])
-        bins.append({"from": low, "to": high, "mean_probability": mean, "true": came_true})
-    return {"of": len(stated), "expected_error": error if stated else None, "bins": bins}
+        bins.append(
+            {
+                "from": j / BINS,
+                "to": (j + 1) / BINS,
+                "mean_probability": mean,
+                "true": came_true,
+            }
+        )
+    chance = Random(0)
+    right = sorted(
+        _expected_error([(p, chance.random() < p) for p, _ in stated]) for _ in range(DRAWS)
+    )
+    return {
+        "of": len(stated),
+        "expected_error": _expected_error(stated) if stated else None,
+        "of_right_ones": sum(right) / DRAWS if stated else None,
+        "most_of_right_ones": right[int(0.95 * DRAWS)] if stated else None,
+        "bins": bins,
+    }
+
+
+def _binned(stated):
+    bins = {}
+    for p, true in stated:
+        bins.setdefault(min(int(p * BINS), BINS - 1), []).append((p, true))
+    return sorted(bins.items())
+
+
+def _expected_error(stated):
+    return sum(abs(sum(p - t for p, t in inside)) for _, inside in _binned(stated)) / max(
+        len(stated), 1
+    )
 
 
 def calibration(cases):

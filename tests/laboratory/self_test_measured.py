@@ -289,6 +289,12 @@ class Quality(unittest.TestCase):
         mixed = quality.reliability([(1.0, False)] + [(0.5, True)] * 3)
         self.assertAlmostEqual(mixed["expected_error"], 0.25 * 1.0 + 0.75 * 0.5)
         self.assertIsNone(quality.reliability([])["expected_error"])
+        # One case of even odds is off by a half whatever comes; certain ones never are.
+        self.assertAlmostEqual(quality.reliability([(0.5, True)])["of_right_ones"], 0.5)
+        self.assertEqual(quality.reliability([(1.0, True)] * 9)["most_of_right_ones"], 0.0)
+        # The mean of |k/n - p| of 400 at even odds is sqrt(2 p (1 - p) / (pi n)).
+        many = quality.reliability([(0.5, k < 200) for k in range(400)])
+        self.assertAlmostEqual(many["of_right_ones"], 0.0199, delta=0.002)
 
     def test_every_cause_is_compared_or_said_why_not(self):
         compared = {quantity.cause for quantity in parameters.QUANTITIES}
