@@ -92,6 +92,10 @@ fn after(
     (from, to): (f64, f64),
     step: f64,
 ) -> Response {
+    if compliance == 0.0 {
+        // A part that is not there has not crept.
+        return Response::default();
+    }
     let [kept, old, new] = lag(step / time_constant);
     Response {
         value: kept * crept + compliance * (old * from + new * to),
