@@ -4,7 +4,8 @@
 use rayon::prelude::*;
 
 use super::gram::Gram;
-use super::program::{Block, Rig};
+use super::loading::keep;
+use super::program::{Block, Played, Rig};
 use super::separability::{TOLD, swept};
 use super::shape::{Shape, columns, products, shapes};
 use crate::causes::{Cause, Scale};
@@ -153,11 +154,10 @@ impl<'a> Design<'a> {
     }
 
     fn with(&self, rig: &Rig, blocks: &[Block]) -> Vec<Standing> {
-        let program = program(self.problem, rig, blocks);
+        let (program, samples) = program(self.problem, rig, blocks);
         let extra = columns(&program, self.coefficients, &self.shapes);
         let products = products(&program, self.coefficients, &extra);
-        let rows = self.rows + program.rows() as f64;
-        self.standings(&self.before.plus(&products), rows)
+        self.standings(&self.before.plus(&products), self.rows + samples)
     }
 
     /// The program of the first rig that surely settles every question, else of the rig that comes
@@ -234,9 +234,14 @@ fn worth(standings: &[Standing]) -> f64 {
     worst + 0.1 * settled().sum::<f64>() / standings.len().max(1) as f64
 }
 
-/// A program as a problem of its own, measured as the records are.
-pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> Problem {
-    let (time, values) = rig.play(blocks);
+/// A program as a problem of its own, measured as the records are, by the samples that show its course; and
+/// how many it has in all.
+pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64) {
+    let Played {
+        time,
+        values,
+        shown,
+    } = rig.play(blocks);
     let record = problem.records.iter().max_by(|a, b| {
         // The noisiest of the records: nothing is promised beyond it.
         let heavy = |r: &Prepared| r.weight.iter().copied().fold(0.0, f64::max);
@@ -256,14 +261,17 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> Problem {
         displacement,
         ..Record::default()
     };
-    Problem {
+    let mut record = Prepared {
+        weight: vec![weight; count],
+        autoregression,
+        ..Prepared::new(&played, problem.operators.form)
+    };
+    keep(&mut record, &shown);
+    let program = Problem {
         operators: problem.operators.clone(),
-        records: vec![Prepared {
-            weight: vec![weight; count],
-            autoregression,
-            ..Prepared::new(&played, problem.operators.form)
-        }],
-    }
+        records: vec![record],
+    };
+    (program, count as f64)
 }
 
 /// χ² that a rival leaves when it is refitted, beside the `others`, to what `acting` would give

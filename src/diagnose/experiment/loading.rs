@@ -50,8 +50,16 @@ fn thin(record: &mut Prepared, input: &[f64], every: usize, length: usize) {
     let kept: Vec<usize> = (0..length)
         .filter(|&i| i % every == 0 || turns(i) && turning_far(input, i, every))
         .collect();
-    let pick = |channel: &[f64]| kept.iter().map(|&i| channel[i]).collect::<Vec<f64>>();
-    record.between.thin(&kept, &record.time);
+    let kept: Vec<(usize, usize)> = kept.into_iter().map(|i| (i, every)).collect();
+    keep(record, &kept);
+}
+
+/// Leaves the given samples of a record, each standing for as many: where one stands for more than itself,
+/// noise counts as white.
+pub(super) fn keep(record: &mut Prepared, kept: &[(usize, usize)]) {
+    let indices: Vec<usize> = kept.iter().map(|(i, _)| *i).collect();
+    let pick = |channel: &[f64]| indices.iter().map(|&i| channel[i]).collect::<Vec<f64>>();
+    record.between.thin(&indices, &record.time);
     let a = record.autoregression;
     record.time = pick(&record.time);
     record.force = pick(&record.force);
@@ -59,13 +67,13 @@ fn thin(record: &mut Prepared, input: &[f64], every: usize, length: usize) {
     record.steps = std::iter::once(0.0)
         .chain(record.time.windows(2).map(|pair| pair[1] - pair[0]))
         .collect();
-    if every > 1 {
+    record.weight = pick(&record.weight);
+    if kept.iter().any(|(_, every)| *every > 1) {
         // weight = 1/innovation, innovation² = σ² (1 − a²)
-        let factor = ((1.0 - a) * (1.0 - a) * every as f64).sqrt();
-        record.weight = pick(&record.weight).iter().map(|w| w * factor).collect();
+        for (weight, (_, every)) in record.weight.iter_mut().zip(kept) {
+            *weight *= ((1.0 - a) * (1.0 - a) * *every as f64).sqrt();
+        }
         record.autoregression = 0.0;
-    } else {
-        record.weight = pick(&record.weight);
     }
 }
 

@@ -122,9 +122,9 @@ pub fn next(
     let (blocks, time, values) = match chosen {
         None => (Vec::new(), Vec::new(), Vec::new()),
         Some(chosen) => {
-            let (time, values) = chosen.rig.play(&chosen.blocks);
+            let played = chosen.rig.play(&chosen.blocks);
             let words = chosen.blocks.iter().map(|b| b.words(&chosen.rig, unit));
-            (words.collect(), time, values)
+            (words.collect(), played.time, played.values)
         }
     };
     let purpose = match named {
@@ -169,8 +169,7 @@ fn refits(
     whole: &Fit,
 ) -> (Option<Standing>, Option<Standing>) {
     let mut both = design.problem.clone();
-    let program = program(design.problem, &chosen.rig, &chosen.blocks);
-    let more = program.rows() as f64;
+    let (program, more) = program(design.problem, &chosen.rig, &chosen.blocks);
     both.records.extend(program.records);
     let asked: Vec<&str> = design.questions.iter().map(|q| q.cause.name()).collect();
     let others: Vec<Acting> = whole

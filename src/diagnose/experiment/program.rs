@@ -57,6 +57,21 @@ impl Block {
     }
 }
 
+/// Samples of a cycle that a look ahead needs.
+const PER_CYCLE: f64 = 100.0;
+
+/// A program as it is played.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Played {
+    /// Time of every sample \[s\].
+    pub time: Vec<f64>,
+    /// Value of the prescribed channel, N or m.
+    pub values: Vec<f64>,
+    /// Samples that show the course of the program, and for how many each stands: a slow cycle needs no more
+    /// than a fast one.
+    pub shown: Vec<(usize, usize)>,
+}
+
 /// Most samples of a program.
 const MOST_SAMPLES: f64 = 12_000.0;
 
@@ -127,7 +142,7 @@ impl Rig {
 
     /// Plays blocks one after the other: time \[s\] and the prescribed channel, from rest at zero
     /// back to zero, at every sample of the rig's clock.
-    pub fn play(&self, blocks: &[Block]) -> (Vec<f64>, Vec<f64>) {
+    pub fn play(&self, blocks: &[Block]) -> Played {
         let mut tape = Tape::new(self);
         for block in blocks {
             let rate = block.rate * self.rate;
@@ -145,7 +160,11 @@ impl Rig {
         let rate = blocks.last().map_or(self.rate, |b| b.rate * self.rate);
         tape.write(1.0 / rate, rate, 0.0, 0.0);
         let time = (0..tape.values.len()).map(|i| i as f64 * self.step);
-        (time.collect(), tape.values)
+        Played {
+            time: time.collect(),
+            values: tape.values,
+            shown: tape.shown,
+        }
     }
 }
 
@@ -153,6 +172,7 @@ impl Rig {
 struct Tape<'a> {
     rig: &'a Rig,
     values: Vec<f64>,
+    shown: Vec<(usize, usize)>,
     phase: f64,
     amplitude: f64,
     mean: f64,
@@ -164,6 +184,7 @@ impl<'a> Tape<'a> {
         Tape {
             rig,
             values: vec![0.0],
+            shown: vec![(0, 1)],
             phase: 0.0,
             amplitude: 0.0,
             mean: 0.0,
@@ -175,6 +196,9 @@ impl<'a> Tape<'a> {
         let count = (seconds / self.rig.step).round().max(1.0);
         // A whole number of samples per piece moves the rate by less than a sample in a piece.
         let turn = seconds * rate / count;
+        // A rest is a hundredth of its own length at a time.
+        let cycle = if rate > 0.0 { 1.0 / rate } else { seconds };
+        let every = ((cycle / self.rig.step / PER_CYCLE) as usize).max(1);
         for i in 1..=count as usize {
             let ease = 0.5 - 0.5 * (PI * i as f64 / count).cos();
             let (level, about) = (
@@ -189,6 +213,10 @@ impl<'a> Tape<'a> {
                 true => (sine - (3.0 * TAU * phase).sin() / 9.0) / (1.0 + 1.0 / 9.0),
                 false => sine,
             };
+            if i % every == 0 || i as f64 == count {
+                let stands = if i % every == 0 { every } else { i % every };
+                self.shown.push((self.values.len(), stands));
+            }
             self.values.push(self.rig.reach * (level * wave + about));
         }
         self.phase += seconds * rate;
@@ -211,13 +239,26 @@ mod tests {
         let menu = rig.menu();
         assert!(menu.len() > 8);
         for block in &menu {
-            let (time, values) = rig.play(std::slice::from_ref(block));
+            let Played {
+                time,
+                values,
+                shown,
+            } = rig.play(std::slice::from_ref(block));
             let peak = values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
             assert!(peak <= 250.0 * (1.0 + 1e-12), "{block:?}: {peak}");
             assert!(peak >= 0.25 * 250.0, "{block:?}: {peak}");
             assert!(values[0] == 0.0 && values[values.len() - 1].abs() < 1.0);
             let lasts = block.seconds(&rig) + 1.0 / (block.rate * rig.rate);
             assert!((time[time.len() - 1] - lasts).abs() < 0.05);
+            // Every sample is stood for once, and slow cycles by no more than fast ones.
+            let stood: usize = shown.iter().map(|(_, every)| every).sum();
+            assert_eq!(stood, values.len(), "{block:?}");
+            assert!(shown.windows(2).all(|w| w[1].0 - w[0].0 == w[1].1));
+            let cycles = block.cycles as f64 + 2.0;
+            assert!(
+                shown.len() as f64 <= 2.0 * PER_CYCLE * (cycles + 1.0),
+                "{block:?}"
+            );
             // No faster than the rig: |dF/dt| ≤ 2π f reach, and what easing in adds.
             let fastest = values.windows(2).map(|v| (v[1] - v[0]).abs() / rig.step);
             assert!(fastest.fold(0.0, f64::max) < 1.6 * TAU * 5.0 * 250.0);
