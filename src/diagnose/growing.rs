@@ -7,8 +7,8 @@ use super::tested::Prospect;
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
 use crate::identify::{Fit, Problem};
 
-/// Share of the misfit beyond noise that a further cause must explain: a weaker one may as well be
-/// the named cause's law being only nearly right.
+/// Share of the misfit beyond noise that a further cause must explain, or another set of what a set leaves: a
+/// weaker one may as well be the named cause's law being only nearly right.
 const FURTHER_SHARE: f64 = 0.10;
 
 /// Part of that share which is enough of a set that leaves nothing beyond scatter.
@@ -23,10 +23,6 @@ const OVERRATED: f64 = 0.5;
 
 /// Causes, best first, whose prediction of held-out cycles is looked at in one round.
 const PREDICTORS: usize = 4;
-
-/// Share of what a set leaves beyond noise that a pair grown from another first cause has to take: two that
-/// are the true ones take nearly all of it, and settling a set that is no better is work for nothing.
-const WORTH_SETTLING: f64 = 1.0 / 3.0;
 
 /// First causes, best first, beside which a second one is looked for where the set leaves structure.
 const BEGINNINGS: usize = 4;
@@ -148,7 +144,8 @@ impl Grow<'_> {
         beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
         let least = ALARM * dispersion(&self.bench.train, best);
         let beyond = best.misfit - self.bench.train.rows() as f64;
-        let enough = best.misfit - WORTH_SETTLING * beyond;
+        // A set that takes no more is not worth the settling.
+        let enough = best.misfit - FURTHER_SHARE * beyond;
         let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
             let trials = self.beside(&one.fit, (Effort::Quick, best.misfit));
             self.next(&one.fit, &trials, enough)
