@@ -58,15 +58,15 @@ const LOUDEST: f64 = 25.0;
 /// within.
 ///
 /// Noise more alike than it was taken for wanders where it should be white, so structure is what stands
-/// out by the largest correlation that the noise may have as well: the lesser of both is told.
+/// out by the largest correlation that the noise may have as well: the lesser significance of both is told,
+/// and the shares by the likeliest.
 pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
     let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
     let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
     let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, &a));
-    if alike.significance < taken.significance {
-        alike
-    } else {
-        taken
+    Structure {
+        significance: taken.significance.min(alike.significance),
+        ..taken
     }
 }
 
