@@ -99,7 +99,6 @@ fn noise_louder_under_load_is_no_structure() {
             seen(&residual, (0.0, 20_000)).significance
         })
         .collect();
-    // Of a hundred and sixty bins; one in 44 is beyond two standard deviations of a normal variable.
     let mean = significances.iter().sum::<f64>() / f64::from(draws);
     let square = significances
         .iter()

@@ -121,11 +121,8 @@ pub fn trials(
 /// small part of it does.
 fn unforetold(score: &Score) -> bool {
     let effect = score.acting.effect;
-    let vanishing = |p: usize| effect.parameters()[p].vanishes_at.is_some();
-    let sizes = (0..effect.parameters().len()).filter(|&p| vanishing(p));
-    score.fall == 0.0
-        && sizes.clone().count() > 0
-        && sizes.into_iter().all(|p| effect.jumps_with(p))
+    let mut sizes = effect.parameters().iter().enumerate();
+    score.fall == 0.0 && sizes.any(|(p, size)| size.vanishes_at.is_some() && effect.jumps_with(p))
 }
 
 /// χ² per degree of freedom, at least one: differences of misfit count only as far as the best

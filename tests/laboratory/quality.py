@@ -105,6 +105,9 @@ def reliability(stated):
     of probability and truth. `expected_error` weighs each bin's difference by its count;
     `of_right_ones` is what it would be on average if each came true as often as stated, which few
     cases do not bring to zero, and `most_of_right_ones` its 95 % quantile."""
+    if not stated:
+        unknown = ("expected_error", "of_right_ones", "most_of_right_ones")
+        return {"of": 0, **dict.fromkeys(unknown), "bins": []}
     bins = []
     for j, inside in _binned(stated):
         mean = sum(p for p, _ in inside) / len(inside)
@@ -123,9 +126,9 @@ def reliability(stated):
     )
     return {
         "of": len(stated),
-        "expected_error": _expected_error(stated) if stated else None,
-        "of_right_ones": sum(right) / DRAWS if stated else None,
-        "most_of_right_ones": right[int(0.95 * DRAWS)] if stated else None,
+        "expected_error": _expected_error(stated),
+        "of_right_ones": sum(right) / DRAWS,
+        "most_of_right_ones": right[int(0.95 * DRAWS)],
         "bins": bins,
     }
 
@@ -138,9 +141,7 @@ def _binned(stated):
 
 
 def _expected_error(stated):
-    return sum(abs(sum(p - t for p, t in inside)) for _, inside in _binned(stated)) / max(
-        len(stated), 1
-    )
+    return sum(abs(sum(p - t for p, t in inside)) for _, inside in _binned(stated)) / len(stated)
 
 
 def calibration(cases):

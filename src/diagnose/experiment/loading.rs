@@ -47,10 +47,10 @@ fn thin(record: &mut Prepared, input: &[f64], every: usize, length: usize) {
             && (input[i] - input[i - 1]) * (input[i + 1] - input[i]) < 0.0
             && every > 1
     };
-    let kept: Vec<usize> = (0..length)
+    let kept: Vec<(usize, usize)> = (0..length)
         .filter(|&i| i % every == 0 || turns(i) && turning_far(input, i, every))
+        .map(|i| (i, every))
         .collect();
-    let kept: Vec<(usize, usize)> = kept.into_iter().map(|i| (i, every)).collect();
     keep(record, &kept);
 }
 
