@@ -1,8 +1,8 @@
 //! One phase of the mains for all records: each test starts at a moment of its own.
 
 use crate::causes::{Cause, find};
-use crate::identify::{Fit, Problem, refit};
-use crate::joint::effect::{Acting, Trajectory};
+use crate::identify::{Fit, Prediction, Problem, refit};
+use crate::joint::effect::Acting;
 
 /// Frequencies tried about a nominal one, per cycle of the longest record.
 const PER_CYCLE: f64 = 4.0;
@@ -53,12 +53,44 @@ pub fn align(problem: &mut Problem, first: &Fit) {
     set_clocks(problem, &found, frequency);
     let samples: usize = residuals.iter().map(Vec::len).sum();
     if fall > STRONG * samples as f64 {
-        let (sine, cosine) = found[0].1.sin_cos();
-        let share = 2.0 * found[0].0 / residuals[0].len().max(1) as f64;
-        let amplitude = share.sqrt() * super::prepare::rms(&left_by_first[0]);
-        let values = vec![amplitude * cosine, amplitude * sine, frequency, 0.0, 0.0];
-        anew(problem, first, hum, values);
+        let seen = line(&problem.records[0].time, &left_by_first[0], frequency);
+        let begun = begun(problem, first, hum, (frequency, seen));
+        anew(problem, first, begun);
     }
+}
+
+/// The hum that gives the judged channel of the first record the line `seen`: a prescribed displacement's
+/// comes out as a force, by the joint's stiffness and the other way round.
+fn begun(
+    problem: &Problem,
+    first: &Fit,
+    hum: &'static dyn Cause,
+    (frequency, seen): (f64, (f64, f64)),
+) -> Acting {
+    let record = &problem.records[0];
+    let small = SMALL * super::prepare::rms(&record.displacement);
+    let of = |size: f64, phase: f64| Acting {
+        effect: hum.effect(),
+        values: vec![size * phase.cos(), size * phase.sin(), frequency, 0.0, 0.0],
+    };
+    let given = &judged_part(problem, first, &[of(small, seen.1)])[0];
+    let given = line(&record.time, given, frequency);
+    let size = small * (seen.0 / given.0.max(f64::MIN_POSITIVE)).sqrt();
+    of(size, 2.0 * seen.1 - given.1)
+}
+
+/// Amplitude of a hum, over the displacement's own, by which the joint's answer to one is told.
+const SMALL: f64 = 1e-3;
+
+/// What effects add to the judged channels beside a fit's dictionary.
+fn judged_part(problem: &Problem, fit: &Fit, effects: &[Acting]) -> Vec<Vec<f64>> {
+    let with = problem.predict(&fit.coefficients, effects);
+    let without = problem.predict(&fit.coefficients, &[]);
+    let part = |(with, without): (&Prediction, &Prediction)| {
+        let both = with.judged.iter().zip(&without.judged);
+        both.map(|(with, without)| with - without).collect()
+    };
+    with.iter().zip(&without).map(part).collect()
 }
 
 /// Share of what the baseline leaves that a hum takes from which its phases are looked at again.
@@ -68,33 +100,28 @@ const STRONG: f64 = 0.1;
 const AGAIN: usize = 3;
 
 /// Sets the clocks anew by phases beside a joint that was fitted with the hum: a baseline without it
-/// takes up some of a short record's, and leaves some of the drive.
-fn anew(problem: &mut Problem, first: &Fit, hum: &'static dyn Cause, values: Vec<f64>) {
-    let mut effects = vec![Acting {
-        effect: hum.effect(),
-        values,
-    }];
+/// takes up some of a short record's, and leaves some of the drive. A clock is away by as much as its
+/// record's line is from the one that the hum has there.
+fn anew(problem: &mut Problem, first: &Fit, begun: Acting) {
     let mut fit = first.clone();
+    let mut effects = vec![begun];
     for _ in 0..AGAIN {
         fit = refit(problem, &fit, effects);
         effects = fit.effects.clone();
-        let values = &effects[0].values;
+        let frequency = effects[0].values[2];
         let lines: Vec<(f64, f64)> = problem
             .records
             .iter()
             .zip(left(problem, &fit))
-            .map(|(record, left)| {
-                let clock = Trajectory {
-                    time: record.time.clone(),
-                    ..Trajectory::default()
-                };
-                let added = hum.channel(values, &clock);
-                let both = left.iter().zip(&added);
-                let whole: Vec<f64> = both.map(|(left, added)| left + added).collect();
-                line(&record.time, &whole, values[2])
+            .zip(judged_part(problem, &fit, &effects))
+            .map(|((record, left), part)| {
+                let both = left.iter().zip(&part);
+                let whole: Vec<f64> = both.map(|(left, part)| left + part).collect();
+                let (fall, phase) = line(&record.time, &whole, frequency);
+                (fall, phase - line(&record.time, &part, frequency).1)
             })
             .collect();
-        set_clocks(problem, &lines, values[2]);
+        set_clocks(problem, &lines, frequency);
     }
 }
 
@@ -146,6 +173,52 @@ fn line(time: &[f64], residual: &[f64], frequency: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::{Form, baseline};
+    use crate::record::Record;
+
+    /// A joint that gives way a little at half its force, under 7 Hz; its sensor reads a hum as well, whose
+    /// phase the three tests begin at are the given ones.
+    fn humming(form: Form, phases: [f64; 3]) -> Vec<Record> {
+        let test = |(k, phase): (usize, f64)| {
+            let time: Vec<f64> = (0..1500).map(|i| 7e-4 * f64::from(i)).collect();
+            let rate = std::f64::consts::TAU * (5.0 + 2.0 * k as f64);
+            let force = |t: &f64| 200.0 * (rate * t).sin();
+            let hum = |t: &f64| 4e-8 * (std::f64::consts::TAU * 50.02 * t + phase).sin();
+            let share = match form {
+                Form::Play => 1.0,
+                // A softer one, so that the force's line is not the displacement's times one number.
+                Form::Stop => 0.3,
+            };
+            Record {
+                name: format!("test {k}"),
+                force: time.iter().map(force).collect(),
+                displacement: time
+                    .iter()
+                    .map(|t| force(t) / (share * 1e8) + hum(t))
+                    .collect(),
+                time: Some(time),
+                ..Record::default()
+            }
+        };
+        phases.into_iter().enumerate().map(test).collect()
+    }
+
+    #[test]
+    fn clocks_are_set_whichever_channel_is_judged() {
+        for form in [Form::Play, Form::Stop] {
+            let phases = [0.3, 2.1, -1.9];
+            let mut problem = Problem::new(form, &humming(form, phases));
+            let first = baseline(&problem);
+            let before: Vec<f64> = problem.records.iter().map(|r| r.time[0]).collect();
+            align(&mut problem, &first);
+            for (k, record) in problem.records.iter().enumerate() {
+                let turned = std::f64::consts::TAU * 50.02 * (record.time[0] - before[k]);
+                let away = (phases[k] - turned - phases[0]) / std::f64::consts::TAU;
+                let away = away - away.round();
+                assert!(away.abs() < 0.01, "{form:?}, test {k}: {away} of a period");
+            }
+        }
+    }
 
     #[test]
     fn the_phase_of_a_sine_is_found_at_its_frequency() {
