@@ -32,7 +32,7 @@ use search::{Found, quick, search};
 use structure::structure;
 
 use crate::causes::{Kind, find};
-use crate::identify::{Fit, Form, Prediction, baseline, exported, refit};
+use crate::identify::{Fit, Form, Prediction, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
 use crate::joint::effect::Acting;
 use crate::joint::parameters::Parameter;
@@ -136,14 +136,17 @@ fn assemble(
     bench: &Bench,
     found: Found,
 ) -> Result<(Findings, Found, Fit), JointError> {
-    let found = sober(bench, found);
+    let found = sober(bench, found).smoothed(bench);
     let before = found.baseline.predict(&bench.train);
     let after = found.best.predict(&bench.train);
     let gain = gain::ratio(bench, &before, &after);
-    let whole_base = baseline(&bench.whole);
+    let whole_base = smoothed(&bench.whole, &baseline(&bench.whole));
     let whole = match found.best.effects.is_empty() {
         true => whole_base.clone(),
-        false => refit(&bench.whole, &found.best, found.best.effects.clone()),
+        false => {
+            let whole = refit(&bench.whole, &found.best, found.best.effects.clone());
+            smoothed(&bench.whole, &whole)
+        }
     };
     let structure_before = structure(
         &bench.whole,

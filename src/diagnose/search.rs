@@ -6,7 +6,7 @@ use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion};
-use crate::identify::Fit;
+use crate::identify::{Fit, smoothed};
 
 /// Most causes named together.
 pub(super) const MOST: usize = 3;
@@ -24,6 +24,17 @@ pub struct Found {
     pub rivals: Vec<Vec<String>>,
     /// For each named cause: evidence it brings beside the others.
     pub evidence: Vec<f64>,
+}
+
+impl Found {
+    /// With joints that follow the noise no more than their data ask for.
+    pub fn smoothed(self, bench: &Bench) -> Found {
+        Found {
+            baseline: smoothed(&bench.train, &self.baseline),
+            best: smoothed(&bench.train, &self.best),
+            ..self
+        }
+    }
 }
 
 /// The set of causes alone, found in a quick pass: what it leaves tells the noise.

@@ -157,7 +157,7 @@ impl Normal {
     fn settle(&self, x: &mut [f64], passive: &mut [bool], bounded: &[bool], scale: &[f64]) {
         loop {
             let members: Vec<usize> = (0..self.size).filter(|&i| passive[i]).collect();
-            let Some(trial) = self.solve_members(&members, scale) else {
+            let Some(trial) = self.solve_members(&members, scale, &self.right) else {
                 return;
             };
             let mut step = 1.0_f64;
@@ -182,8 +182,13 @@ impl Normal {
         }
     }
 
+    /// `A⁻¹v` over the given unknowns alone; `None` where it is no number.
+    pub(super) fn solve_for(&self, members: &[usize], v: &[f64]) -> Option<Vec<f64>> {
+        self.solve_members(members, &self.scale(), v)
+    }
+
     /// Cholesky solution over the given unknowns, each scaled to unit diagonal.
-    fn solve_members(&self, members: &[usize], scale: &[f64]) -> Option<Vec<f64>> {
+    fn solve_members(&self, members: &[usize], scale: &[f64], right: &[f64]) -> Option<Vec<f64>> {
         let m = members.len();
         let mut factor = vec![0.0; m * m];
         for (a, &i) in members.iter().enumerate() {
@@ -203,7 +208,7 @@ impl Normal {
                 }
             }
         }
-        let mut solution: Vec<f64> = members.iter().map(|&i| self.right[i] * scale[i]).collect();
+        let mut solution: Vec<f64> = members.iter().map(|&i| right[i] * scale[i]).collect();
         for a in 0..m {
             for k in 0..a {
                 solution[a] -= factor[a * m + k] * solution[k];
@@ -231,12 +236,7 @@ impl Normal {
     /// For another column with the given inner products `cross`: how much of its own square and of
     /// its product with the target the given unknowns account for, `(vᵀA⁻¹v, vᵀA⁻¹b)`.
     pub fn project(&self, members: &[usize], cross: &[f64]) -> Option<(f64, f64)> {
-        let mut other = Normal {
-            right: cross.to_vec(),
-            ..self.clone()
-        };
-        other.square = 0.0;
-        let solution = other.solve_members(members, &self.scale())?;
+        let solution = self.solve_for(members, cross)?;
         let explained = members
             .iter()
             .zip(&solution)
