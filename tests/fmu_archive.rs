@@ -214,6 +214,14 @@ fn every_bad_library_is_told_apart() {
         "was built from other sources",
     );
     refused(&folder, Some(&stale), &arguments, iwan::pack::BUILD_COMMAND);
+    // Half a library has the right head, and may have the stamp.
+    let half = folder.join("half.so");
+    let whole = std::fs::read(library()).expect("the library");
+    for share in [0.4, 0.7, 0.999] {
+        let kept = (whole.len() as f64 * share) as usize;
+        std::fs::write(&half, &whole[..kept]).expect("a file");
+        refused(&folder, Some(&half), &arguments, "half.so is cut short");
+    }
     let with = |binary: &'static str| ["joint.json", "-o", "joint.fmu", "--binary", binary];
     refused(&folder, None, &with("linux64"), "expected PLATFORM=FILE");
     let swapped = format!("aarch64-linux={}", library().display());

@@ -276,8 +276,8 @@ fn a_step_is_judged_by_what_causes_lose_at_it_too() {
     );
 }
 
-/// The archive with one text replaced in one entry, or without the entries that begin so.
-fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), dropped: &str) {
+/// The archive with changed entries, or without those that begin so.
+fn changed(folder: &Path, name: &str, dropped: &str, change: impl Fn(&str, &mut Vec<u8>)) {
     let file = std::fs::File::open(folder.join("joint.fmu")).expect("the archive");
     let mut old = zip::ZipArchive::new(file).expect("a zip file");
     let file = std::fs::File::create(folder.join(name)).expect("a file");
@@ -286,11 +286,7 @@ fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), drop
     for kept in names.iter().filter(|kept| !kept.starts_with(dropped)) {
         let mut bytes = Vec::new();
         std::io::copy(&mut old.by_name(kept).expect("an entry"), &mut bytes).expect("bytes");
-        if kept == entry {
-            let text = String::from_utf8(bytes).expect("UTF-8");
-            assert!(text.contains(from), "{text}");
-            bytes = text.replace(from, to).into_bytes();
-        }
+        change(kept, &mut bytes);
         new.start_file(kept, zip::write::SimpleFileOptions::default())
             .expect("an entry");
         std::io::Write::write_all(&mut new, &bytes).expect("bytes");
@@ -298,9 +294,24 @@ fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), drop
     new.finish().expect("an archive");
 }
 
+/// The archive with one text replaced in one entry, or without the entries that begin so.
+fn spoilt(folder: &Path, name: &str, (entry, from, to): (&str, &str, &str), dropped: &str) {
+    changed(folder, name, dropped, |kept, bytes| {
+        if kept == entry {
+            let text = String::from_utf8(std::mem::take(bytes)).expect("UTF-8");
+            assert!(text.contains(from), "{text}");
+            *bytes = text.replace(from, to).into_bytes();
+        }
+    });
+}
+
 /// What `iwan check` says to such an archive, which it must refuse.
 fn refused(folder: &Path, name: &str, change: (&str, &str, &str), dropped: &str) -> String {
     spoilt(folder, name, change, dropped);
+    refused_as_it_is(folder, name)
+}
+
+fn refused_as_it_is(folder: &Path, name: &str) -> String {
     let output = iwan(folder, &["check", name]);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
@@ -346,11 +357,29 @@ fn an_archive_whose_parts_disagree_is_refused() {
         let told = refused(&folder, "page.fmu", NO_CHANGE, page);
         assert!(told.contains(&format!("{page} is missing")), "{told}");
         let told = refused(&folder, "library.fmu", NO_CHANGE, "binaries/");
-        assert!(told.contains("library.fmu: fmi"), "{told}");
+        let expected = "library.fmu: no library for this machine";
+        assert!(told.contains(expected), "{told}");
         // A joint that was exchanged is told by the GUID that the XML still has.
         let joint = ("resources/joint.json", "1000.0", "1001.0");
         let told = refused(&folder, "joint-2.fmu", joint, NO_ENTRY);
         assert!(told.contains("the GUID in modelDescription.xml"), "{told}");
+    }
+}
+
+/// Half a library has the head of a whole one, and the stamp: loaded it would end this program.
+#[test]
+fn a_library_that_is_cut_short_is_not_loaded() {
+    for version in ["2", "3"] {
+        let folder = exported_as(version, "cut", "[]", "force");
+        let half = |name: &str, bytes: &mut Vec<u8>| {
+            if name.starts_with("binaries/") {
+                bytes.truncate(bytes.len() / 2);
+            }
+        };
+        changed(&folder, "half.fmu", NO_ENTRY, half);
+        let told = refused_as_it_is(&folder, "half.fmu");
+        assert!(told.contains("half.fmu: library binaries/"), "{told}");
+        assert!(told.contains("is cut short"), "{told}");
     }
 }
 

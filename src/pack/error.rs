@@ -77,6 +77,19 @@ pub enum PackError {
         /// Format of that platform.
         expected: &'static str,
     },
+    /// The beginning of a library.
+    #[error(
+        "library {path} is cut short: it has {came} bytes and speaks of {expected}; copy or build \
+         it anew"
+    )]
+    CutShort {
+        /// The file.
+        path: PathBuf,
+        /// Bytes that its tables ask for.
+        expected: u64,
+        /// Bytes that there are.
+        came: u64,
+    },
     /// A library of other sources than this program.
     #[error(
         "library {path} was built from other sources than this program (expected {expected} in \

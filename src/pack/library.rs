@@ -1,6 +1,7 @@
 //! Where the FMU's shared library comes from, and that it is the right one.
 
 use super::platform::Platform;
+use super::whole;
 use super::{FmiVersion, PackError};
 use crate::variables::{MODEL_IDENTIFIER, STAMP};
 use std::path::{Path, PathBuf};
@@ -22,7 +23,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads a library and checks its format and its stamp.
+    /// Reads a library and checks its format, its length and its stamp.
     ///
     /// # Errors
     /// [`PackError::UnreadableLibrary`], and as [`Library::of_bytes`].
@@ -40,7 +41,8 @@ impl Library {
     /// A library by its content; `path` names it in messages.
     ///
     /// # Errors
-    /// [`PackError::Platform`], [`PackError::WrongFormat`], [`PackError::StaleLibrary`].
+    /// [`PackError::Platform`], [`PackError::WrongFormat`], [`PackError::CutShort`],
+    /// [`PackError::StaleLibrary`].
     pub fn of_bytes(platform: &str, path: &Path, bytes: Vec<u8>) -> Result<Library, PackError> {
         let platform = Platform::named(platform)?;
         let path = path.to_owned();
@@ -49,6 +51,14 @@ impl Library {
                 path,
                 platform: platform.name,
                 expected: platform.format,
+            });
+        }
+        let came = bytes.len() as u64;
+        if let Some(expected) = whole::length(&bytes).filter(|expected| *expected > came) {
+            return Err(PackError::CutShort {
+                path,
+                expected,
+                came,
             });
         }
         let mut windows = bytes.windows(STAMP.len());

@@ -14,6 +14,7 @@ mod platform;
 pub mod terminals;
 mod unit;
 mod version;
+mod whole;
 
 pub use date::date_time;
 pub use error::PackError;

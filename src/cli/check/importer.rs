@@ -96,6 +96,9 @@ impl Archive {
     /// [`BadInput`] where the archive refuses a call; [`crate::joint::JointError`] where the joint
     /// refuses the load.
     pub fn compare(&self, load: &Load) -> anyhow::Result<Verdict> {
+        if let Some(reason) = &self.validation.unloadable {
+            return Err(BadInput(format!("{}: {reason}", self.shown)).into());
+        }
         let expected = self.simulate(load)?;
         let run = self
             .run(load)

@@ -25,6 +25,8 @@ pub struct Validation {
     pub faults: Vec<String>,
     /// What is worth knowing and harms nothing.
     pub notes: Vec<String>,
+    /// Why this machine cannot load the archive's library; half a library would end the program.
+    pub unloadable: Option<String>,
 }
 
 /// What importers read first.
@@ -99,6 +101,8 @@ fn entries(
             found.faults.push(format!("{entry} is missing"));
         }
     }
+    let here = Platform::of_this_machine(version).ok();
+    let here = here.map(|platform| platform.folder(version));
     for name in names.iter().filter(|name| !name.ends_with('/')) {
         let Some((folder, file)) = name
             .strip_prefix("binaries/")
@@ -128,10 +132,25 @@ fn entries(
                     .notes
                     .push(format!("of another version of iwan: {error}"));
             }
-            Err(error) => found.faults.push(error.to_string()),
+            Err(error) => {
+                let error = error.to_string();
+                if here == Some(folder) {
+                    found.unloadable = Some(error.clone());
+                }
+                found.faults.push(error);
+            }
         }
     }
     found.platforms.sort();
+    if let Some(folder) = here.filter(|here| found.platforms.iter().all(|other| other != here)) {
+        let others = match &found.platforms[..] {
+            [] => "none at all".to_owned(),
+            others => others.join(", "),
+        };
+        found.unloadable = Some(format!(
+            "no library for this machine, which takes that of binaries/{folder}; there is {others}"
+        ));
+    }
     if found.platforms.is_empty() {
         found.faults.push("no library in binaries/".to_owned());
     }
