@@ -117,6 +117,60 @@ fn a_load_of_a_file_is_run() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("full slip"));
 }
 
+/// Four cycles of a sine, twenty samples each, the first after this share of a distance; as a
+/// measurement has it, to three decimals.
+fn sine(amplitude: f64, share: f64) -> String {
+    let rows = (0..=80).map(|row| {
+        let turn = (f64::from(row) + share) / 20.0;
+        let force = amplitude * (std::f64::consts::TAU * turn).sin();
+        format!("{},{force:.3}\n", f64::from(row) / 20.0)
+    });
+    format!("time [s],force [N]\n{}", rows.collect::<String>())
+}
+
+/// A top half-way between two samples makes them equal: there, too, it is put back, and the loss told.
+#[test]
+fn a_top_between_two_equal_samples_is_put_back() {
+    let folder = exported("equal", "[]", "force");
+    let reference = |share: f64| -> f64 {
+        std::fs::write(folder.join("sine.csv"), sine(900.0, share)).expect("a record");
+        let told = fine(&folder, &["check", "joint.fmu", "sine.csv", "--json"]);
+        let found: Value = serde_json::from_str(&told).expect("JSON");
+        found["steps"]["reference_dissipation"]
+            .as_f64()
+            .expect("a dissipation")
+    };
+    let (aside, half_way) = (reference(0.4), reference(0.5));
+    assert!(
+        (half_way / aside - 1.0).abs() < 0.005,
+        "{half_way} J, {aside} J"
+    );
+}
+
+/// A ramp that ends in a rest has no top above the rest, whether this lasts for a sample or for ten.
+#[test]
+fn a_load_that_rests_has_no_top() {
+    let folder = exported("rest", "[]", "force");
+    for rest in [1, 10] {
+        let mut csv = String::from("time [s],force [N]\n0,0\n");
+        let mut time = 0;
+        for force in [500, -500, 500, -500, 300] {
+            time += 1;
+            csv += &format!("{time},{force}\n");
+            time += rest;
+            csv += &format!("{time},{force}\n");
+        }
+        std::fs::write(folder.join("rest.csv"), csv).expect("a load");
+        let told = fine(&folder, &["check", "joint.fmu", "rest.csv", "--json"]);
+        let found: Value = serde_json::from_str(&told).expect("JSON");
+        let all = found["steps"]["effects"].as_array().expect("a list");
+        let own = all
+            .iter()
+            .find(|effect| effect["origin"] == "the samples themselves");
+        assert_eq!(own.expect("a step")["lost"], 0.0, "{told}");
+    }
+}
+
 /// An archive whose joint was exchanged is told by its GUID; one that is none by its form.
 #[test]
 fn a_foreign_archive_is_refused() {

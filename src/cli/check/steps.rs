@@ -13,6 +13,9 @@ const MULTIPLES: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 /// Where in the first step the communication points may begin: whether they meet the turning values
 /// is chance, and the worst is told.
 const PHASES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
+/// A slope is so many times that of the step nearer to a round top, at least: twice for a parabola, 1.4
+/// times for a sine of eight samples per cycle.
+const ROUND: f64 = 1.25;
 /// Fewer samples per cycle than this, and the turning values between them are anyone's guess.
 const FEWEST_PER_CYCLE: f64 = 8.0;
 
@@ -200,7 +203,8 @@ fn resampled(load: &Load, step: f64, phase: f64) -> Load {
 }
 
 /// The load with the top of the parabola through three samples wherever the middle one is the
-/// largest or the smallest: the turning values that fell between samples.
+/// largest or the smallest: the turning values that fell between samples. Of two equal samples the
+/// first is the middle one, where the load is round there.
 fn with_turning_values(load: &Load) -> Load {
     let mut fine = Load {
         time: vec![load.time[0]],
@@ -208,14 +212,15 @@ fn with_turning_values(load: &Load) -> Load {
         answer: None,
     };
     for row in 1..load.time.len() {
+        let sample = |row: usize| Some((*load.time.get(row)?, *load.input.get(row)?));
+        let before = (load.time[row - 1], load.input[row - 1]);
         let middle = (load.time[row], load.input[row]);
-        let top = load.time.get(row + 1).and_then(|&t2| {
-            top(
-                (load.time[row - 1], load.input[row - 1]),
-                middle,
-                (t2, load.input[row + 1]),
-            )
-        });
+        let turns = |next: &(f64, f64)| {
+            let (rise, fall) = (middle.1 - before.1, next.1 - middle.1);
+            rise * fall < 0.0 || fall == 0.0 && round_at_pair(load, row)
+        };
+        let next = sample(row + 1).filter(turns);
+        let top = next.and_then(|next| top(before, middle, next));
         let before = top.filter(|top| top.0 < middle.0);
         let after = top.filter(|top| top.0 > middle.0);
         for (time, input) in before.into_iter().chain([middle]).chain(after) {
@@ -229,11 +234,24 @@ fn with_turning_values(load: &Load) -> Load {
     fine
 }
 
-/// Extremum of the parabola through three points, where the middle one is extreme.
+/// True where the load slows towards the equal samples `row` and `row + 1` and comes away from them
+/// faster and faster, as at a round top; a ramp that ends in a rest has none.
+fn round_at_pair(load: &Load, row: usize) -> bool {
+    let slope = |from: usize| {
+        let way = load.input.get(from + 1)? - load.input.get(from)?;
+        Some(way / (load.time.get(from + 1)? - load.time.get(from)?))
+    };
+    let to = row
+        .checked_sub(2)
+        .and_then(|first| Some((slope(first)?, slope(first + 1)?)));
+    let away = slope(row + 2).zip(slope(row + 1));
+    to.zip(away).is_some_and(|((far, near), (gone, going))| {
+        near * going < 0.0 && far / near >= ROUND && gone / going >= ROUND
+    })
+}
+
+/// Extremum of the parabola through three points of which none is beyond the middle one.
 fn top(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Option<(f64, f64)> {
-    if (b.1 - a.1) * (c.1 - b.1) >= 0.0 {
-        return None;
-    }
     let (rise, fall) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (fall - rise) / (c.0 - a.0);
     let slope = (rise * (c.0 - b.0) + fall * (b.0 - a.0)) / (c.0 - a.0);
