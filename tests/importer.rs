@@ -114,7 +114,9 @@ fn a_load_of_a_file_is_run() {
     std::fs::write(folder.join("strong.csv"), "time [s],force [kN]\n0,0\n1,5\n").expect("a load");
     let output = iwan(&folder, &["check", "joint.fmu", "strong.csv"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("full slip"));
+    let told = String::from_utf8_lossy(&output.stderr);
+    let place = "strong.csv, line 3, column 2 `force [kN]`: force 5000 N reaches full slip";
+    assert!(told.contains(place), "{told}");
 }
 
 /// Four cycles of a sine, twenty samples each, the first after this share of a distance; as a
@@ -169,6 +171,21 @@ fn a_load_that_rests_has_no_top() {
             .find(|effect| effect["origin"] == "the samples themselves");
         assert_eq!(own.expect("a step")["lost"], 0.0, "{told}");
     }
+}
+
+/// A turning value between the samples that the joint cannot answer is no fault of the archive, and
+/// is not called a sample.
+#[test]
+fn a_top_beyond_full_slip_is_told_apart_from_a_sample() {
+    let folder = exported("top", "[]", "force");
+    std::fs::write(folder.join("sine.csv"), sine(1003.0, 0.3)).expect("a record");
+    let output = iwan(&folder, &["check", "joint.fmu", "sine.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("agrees with its joint"), "{text}");
+    let told = String::from_utf8_lossy(&output.stderr);
+    let place = "sine.csv: between its samples: force 100";
+    assert!(told.contains(place), "{told}");
 }
 
 /// An archive whose joint was exchanged is told by its GUID; one that is none by its form.
@@ -264,6 +281,12 @@ fn a_record_is_compared_and_its_step_is_judged() {
         &["check", "joint.fmu", "record.csv", "--step", "-1"],
     );
     assert_eq!(output.status.code(), Some(2));
+    // Steps that would take days are not begun.
+    let tiny = ["check", "joint.fmu", "record.csv", "--step", "1e-9"];
+    let output = iwan(&folder, &tiny);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("--step 0.000000001: expected"), "{told}");
 }
 
 /// Between turning values that all fall on samples nothing is lost without causes; a slip limit that

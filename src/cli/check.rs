@@ -52,14 +52,25 @@ pub struct Check {
 pub fn run(arguments: &Check) -> anyhow::Result<()> {
     let archive = importer::Archive::open(&arguments.archive)?;
     let load = match &arguments.record {
-        Some(record) => load::Load::read(record, &arguments.foreign, archive.drive())?,
+        Some(record) => {
+            let (joint, drive) = (archive.joint(), archive.drive());
+            load::Load::read(record, &arguments.foreign, joint, drive)?
+        }
         None => load::Load::made_for(archive.joint(), archive.drive())?,
     };
+    let record = arguments.record.as_ref().filter(|_| load.time.len() > 2);
+    let judged = match record {
+        Some(_) => Some(judged_step(arguments.step, archive.default_step(), &load)?),
+        None => None,
+    };
     let mut verdict = archive.compare(&load)?;
-    if arguments.record.is_some() && load.time.len() > 2 {
-        let step = judged_step(arguments.step, archive.default_step(), &load)?;
-        let steps = steps::Steps::of(archive.joint(), archive.drive(), &load, step)?;
-        verdict.steps = Some(steps);
+    let mut between = None;
+    if let (Some(record), Some(step)) = (record, judged) {
+        match steps::Steps::of(archive.joint(), archive.drive(), &load, step) {
+            Ok(steps) => verdict.steps = Some(steps),
+            // The samples themselves have been answered.
+            Err(reason) => between = Some((record, reason)),
+        }
     }
     let shown = arguments.archive.display().to_string();
     super::output::print(&if arguments.json {
@@ -70,14 +81,21 @@ pub fn run(arguments: &Check) -> anyhow::Result<()> {
     if let Some(fault) = archive.validation().faults.first() {
         return Err(BadInput(format!("{shown}: {fault}")).into());
     }
-    if verdict.agrees() {
-        return Ok(());
+    if !verdict.agrees() {
+        let reason = "does not answer as its own resources/joint.json";
+        return Err(BadInput(format!("{shown}: {reason}")).into());
     }
-    let reason = "does not answer as its own resources/joint.json";
-    Err(BadInput(format!("{shown}: {reason}")).into())
+    match between {
+        None => Ok(()),
+        Some((record, reason)) => {
+            let place = format!("{}: between its samples", record.display());
+            Err(anyhow::Error::new(reason).context(place))
+        }
+    }
 }
 
-/// The step that was asked for, else the archive's own, else the record's.
+/// The step that was asked for, else the archive's own, else the record's. None makes more than
+/// [`steps::MOST_JUDGED`] of the record.
 #[cfg(feature = "importer")]
 fn judged_step(
     asked: Option<f64>,
@@ -85,12 +103,13 @@ fn judged_step(
     load: &load::Load,
 ) -> Result<(f64, &'static str), BadInput> {
     let span = load.time[load.time.len() - 1] - load.time[0];
+    let least = span / steps::MOST_JUDGED;
     match (asked, own) {
-        (Some(step), _) if !(step > 0.0 && step <= span) => Err(BadInput(format!(
-            "--step {step}: expected seconds above 0 and up to the record's {span}"
+        (Some(step), _) if !(step >= least && step <= span) => Err(BadInput(format!(
+            "--step {step}: expected seconds from {least:.1e} up to the record's {span}"
         ))),
         (Some(step), _) => Ok((step, "as asked for")),
-        (None, Some(step)) if step <= span => Ok((step, "the archive's default")),
+        (None, Some(step)) if step >= least && step <= span => Ok((step, "the archive's default")),
         _ => Ok((span / (load.time.len() - 1) as f64, "the record's own")),
     }
 }

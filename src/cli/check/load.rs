@@ -4,6 +4,7 @@ use crate::cli::input::{Foreign, tell_notes};
 use crate::joint::{Drive, Joint, JointError, Simulation};
 use crate::pack::Nominal;
 use crate::read::{self, Quantity};
+use anyhow::Context;
 use std::path::Path;
 
 /// Input over time.
@@ -24,11 +25,16 @@ const DURATION: f64 = 4.0;
 const HALVINGS: usize = 40;
 
 impl Load {
-    /// The load of a file.
+    /// The load of a file, which the joint must be able to answer.
     ///
     /// # Errors
-    /// [`read::ReadError`].
-    pub fn read(file: &Path, foreign: &Foreign, drive: Drive) -> anyhow::Result<Load> {
+    /// [`read::ReadError`]; [`JointError`] with the line of the file.
+    pub fn read(
+        file: &Path,
+        foreign: &Foreign,
+        joint: &Joint,
+        drive: Drive,
+    ) -> anyhow::Result<Load> {
         let table = read::load_table(file, &foreign.options()?)?;
         tell_notes(file, &table.notes);
         let (quantity, input, answer) = match drive {
@@ -37,6 +43,12 @@ impl Load {
         };
         let answer = answer.clone();
         let input = input.clone().ok_or_else(|| table.missing(quantity))?;
+        let mut simulation = Simulation::new(joint, drive)?;
+        for (row, (time, input)) in table.time.iter().zip(&input).enumerate() {
+            let spot = || table.spot(quantity, row);
+            let place = || spot().map_or(String::new(), |spot| spot.to_string());
+            simulation.step(*time, *input).with_context(place)?;
+        }
         Ok(Load {
             time: table.time,
             input,

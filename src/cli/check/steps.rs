@@ -22,6 +22,9 @@ const FEWEST_PER_CYCLE: f64 = 8.0;
 /// Parts that a step of the record is cut into at most where effects act, and steps that makes at most.
 const FINEST: usize = 16;
 const MOST_STEPS: usize = 2_000_000;
+/// Steps that the judged one may make of the record: half an hour at 10 kHz, some seconds of work
+/// without effects and minutes with them.
+pub const MOST_JUDGED: f64 = 2e7;
 
 /// Origin of the record's own step.
 const SAMPLES: &str = "the samples themselves";
@@ -177,7 +180,7 @@ fn dissipation(joint: &Joint, drive: Drive, load: &Load) -> Result<f64, JointErr
 fn resampled(load: &Load, step: f64, phase: f64) -> Load {
     let (first, last) = (load.time[0], load.time[load.time.len() - 1]);
     let begin = first + phase * step;
-    let count = ((last - begin) / step * (1.0 + 1e-12)).floor().min(1e8);
+    let count = ((last - begin) / step * (1.0 + 1e-12)).floor();
     let mut time = vec![first];
     if count >= 0.0 {
         time.extend((0..=count as usize).map(|k| begin + k as f64 * step));
