@@ -430,6 +430,17 @@ fn an_archive_whose_parts_disagree_is_refused() {
         );
         let told = refused(&folder, "role.fmu", role, NO_ENTRY);
         assert!(told.contains("Illegal combination of causality"), "{told}");
+        // What importers stop at: libcosim at a display unit that is not defined.
+        let shown = (DESCRIPTION, "displayUnit=\"kN\"", "displayUnit=\"MN\"");
+        let told = refused(&folder, "shown.fmu", shown, NO_ENTRY);
+        let expected = "variable force: display unit MN is not defined";
+        assert!(told.contains(expected), "{told}");
+        let size = (DESCRIPTION, "nominal=\"", "nominal=\"-");
+        let told = refused(&folder, "size.fmu", size, NO_ENTRY);
+        assert!(told.contains(": nominal expected above 0"), "{told}");
+        let on = (DESCRIPTION, "dependencies=\"", "dependencies=\"77 ");
+        let told = refused(&folder, "on.fmu", on, NO_ENTRY);
+        assert!(told.contains("77"), "{told}");
         let page = "documentation/index.html";
         let told = refused(&folder, "page.fmu", NO_CHANGE, page);
         assert!(told.contains(&format!("{page} is missing")), "{told}");

@@ -2,6 +2,8 @@
 //! that it carries.
 
 #[cfg(feature = "importer")]
+mod attributes;
+#[cfg(feature = "importer")]
 mod importer;
 #[cfg(feature = "importer")]
 mod load;

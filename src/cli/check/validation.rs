@@ -1,5 +1,6 @@
 //! What an archive says of itself, held against the joint in it: what importers' own checks miss.
 
+use super::attributes::{sized, structured};
 use crate::joint::Joint;
 use crate::pack::{FmiVersion, Library, PackError, Platform, date_time};
 use crate::variables::{MODEL_IDENTIFIER, Variables};
@@ -12,7 +13,7 @@ use std::path::Path;
 
 type Zip = zip::ZipArchive<File>;
 /// Attributes of an element by name.
-type Attributes = BTreeMap<String, String>;
+pub type Attributes = BTreeMap<String, String>;
 /// Names of elements and their attributes, in the order of the XML.
 pub type Elements = [(String, Attributes)];
 
@@ -71,6 +72,12 @@ pub fn validate(
         Ok(elements) => {
             interface(&elements, &mut found.faults);
             described(&elements, version, joint, variables, &mut found.faults);
+            sized(
+                &elements,
+                &variables_of(&elements, version),
+                &mut found.faults,
+            );
+            structured(&elements, version, &mut found.faults);
         }
         Err(error) => found.faults.push(format!("{DESCRIPTION}: {error}")),
     }
