@@ -301,6 +301,28 @@ fn every_bad_input_is_told_apart() {
     check(&["cut.json", "-o", "joint.fmu"], "cut.json:");
 }
 
+/// A joint that another program writes, and messages that nobody reads.
+#[cfg(unix)]
+#[test]
+fn pipes_are_read_once_and_may_be_closed() {
+    use std::process::Stdio;
+    let folder = folder("pipes");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_iwan"));
+    command
+        .current_dir(&folder)
+        .env("IWAN_FMU_LIBRARY", library())
+        .args(["export", "/dev/stdin", "-o", "joint.fmu"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut running = command.spawn().expect("the binary runs");
+    let mut joint = running.stdin.take().expect("a pipe");
+    std::io::Write::write_all(&mut joint, JOINT.as_bytes()).expect("a joint");
+    drop((joint, running.stderr.take()));
+    assert_eq!(running.wait().expect("an end").code(), Some(0));
+    let archive = std::fs::read(folder.join("joint.fmu")).expect("the archive");
+    assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
+}
+
 /// An archive that is there stays whole when the next export fails.
 #[test]
 fn a_refusal_leaves_the_old_archive() {

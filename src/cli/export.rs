@@ -36,7 +36,8 @@ pub fn run(arguments: &Export) -> anyhow::Result<()> {
     let inputs = inputs(arguments);
     let inputs: Vec<_> = inputs.iter().map(PathBuf::as_path).collect();
     output::admit(&arguments.output, &inputs)?;
-    let text = joint_json(&arguments.joint)?;
+    // The text as it is: its hash goes into the archive.
+    let (_, text) = super::input::joint_and_text(&arguments.joint)?;
     let drive = match arguments.drive {
         DriveName::Force => Drive::Force,
         DriveName::Displacement => Drive::Displacement,
@@ -50,7 +51,7 @@ pub fn run(arguments: &Export) -> anyhow::Result<()> {
     let bytes = archive.bytes().map_err(sorted)?;
     output::write(&arguments.output, |out| Ok(out.write_all(&bytes)?))?;
     for name in archive.names() {
-        eprintln!("{}: {name}", arguments.output.display());
+        output::tell(&format!("{}: {name}", arguments.output.display()));
     }
     Ok(())
 }
@@ -83,13 +84,6 @@ fn inputs(arguments: &Export) -> Vec<PathBuf> {
     let mut inputs: Vec<_> = named.map(|(_, path)| PathBuf::from(path)).collect();
     inputs.push(arguments.joint.clone());
     inputs
-}
-
-/// The text as it is, since its hash goes into the archive; [`super::input::joint`] words what is
-/// wrong with the file.
-fn joint_json(file: &Path) -> anyhow::Result<String> {
-    super::input::joint(file)?;
-    Ok(std::fs::read_to_string(file)?)
 }
 
 /// Bad input, but for a name that our own tables lack.

@@ -113,9 +113,17 @@ pub fn tell_notes(file: &Path, notes: &[String]) {
 /// Reads a joint.json.
 ///
 /// # Errors
+/// As [`joint_and_text`].
+pub fn joint(file: &Path) -> anyhow::Result<Joint> {
+    Ok(joint_and_text(file)?.0)
+}
+
+/// Reads a joint.json once, as a pipe can be, and gives its text as well.
+///
+/// # Errors
 /// [`BadInput`] where there is no such text file, [`crate::saved::SavedError`] with the place
 /// where it holds no joint.
-pub fn joint(file: &Path) -> anyhow::Result<Joint> {
+pub fn joint_and_text(file: &Path) -> anyhow::Result<(Joint, String)> {
     let name = file.display().to_string();
     let refuse = |reason: String| BadInput(format!("{name}: {reason}"));
     if file.is_dir() {
@@ -129,5 +137,5 @@ pub fn joint(file: &Path) -> anyhow::Result<Joint> {
     })?;
     let text = String::from_utf8(bytes)
         .map_err(|_| refuse("this is no joint.json: not a text in UTF-8".to_string()))?;
-    Ok(crate::saved::read(&text, &name)?.joint)
+    Ok((crate::saved::read(&text, &name)?.joint, text))
 }

@@ -129,6 +129,12 @@ pub fn print(text: &str) -> anyhow::Result<()> {
     )
 }
 
+/// Says what happened. The work is done whether anyone listens or not (`2>&1 | head`), so that a
+/// closed standard error is no error.
+pub fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
 fn unless_closed(result: anyhow::Result<()>) -> anyhow::Result<()> {
     match result {
         Err(error)
