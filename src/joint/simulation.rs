@@ -149,13 +149,10 @@ impl Simulation {
     /// Times are equal where no [`time_passing`] is.
     ///
     /// # Errors
-    /// [`JointError::NotFinite`], [`JointError::TimeRunsBack`], [`JointError::BeyondFullSlip`].
+    /// [`JointError::NotFinite`], [`JointError::TimeRunsBack`], [`JointError::BeyondFullSlip`],
+    /// [`JointError::OutOfReach`].
     pub fn step(&mut self, time: f64, input: f64) -> Result<Output, JointError> {
-        for value in [time, input] {
-            if !value.is_finite() {
-                return Err(JointError::NotFinite { time, value });
-            }
-        }
+        self.admit(time, input)?;
         let from = if self.started { self.output.time } else { time };
         if time < from {
             return Err(JointError::TimeRunsBack { from, to: time });

@@ -69,3 +69,32 @@ fn with_every_cause_it_leaves_everything_as_before() {
         }
     }
 }
+
+/// Inputs whose work no number holds are refused, with causes or without, at once and behind a turn:
+/// an infinite dissipation would stay for ever, and no saved state could hold it.
+#[test]
+fn an_input_beyond_numbers_is_refused() {
+    for resources in [Resources::new(BOLT), bolt_with_all_causes()] {
+        let unit = Unit::stepping(&resources, Drive::Displacement);
+        unit.ok(unit.set(DISPLACEMENT, 1e-8));
+        unit.ok(unit.step(0.0, 0.1));
+        for beyond in [1e305, -1e305, 1e160, f64::MAX] {
+            for turns in [false, true] {
+                if turns {
+                    unit.ok(unit.set(DISPLACEMENT, 1e-8));
+                    derive(&unit, DISPLACEMENT, [-1.0, beyond, 0.0]);
+                } else {
+                    unit.ok(unit.set(DISPLACEMENT, beyond));
+                }
+                let asked = unit.bytes();
+                assert_eq!(unit.step(0.1, 1.0), Status::Error, "{beyond} {turns}");
+                assert!(unit.bytes() == asked, "{beyond} {turns}");
+                let told = &unit.log().last().unwrap().text;
+                assert!(told.contains("is beyond all"), "{told}");
+                derive(&unit, DISPLACEMENT, [0.0; 3]);
+            }
+        }
+        unit.ok(unit.set(DISPLACEMENT, -1e-8));
+        unit.ok(unit.step(0.1, 0.1));
+    }
+}
