@@ -305,3 +305,28 @@ fn a_damaged_joint_is_refused() {
     let unknown = JOINT.replace("[]", r#"[{"name": "loose_bolt", "parameters": {}}]"#);
     refuse(unknown.as_bytes(), &["$.causes", "loose_bolt"]);
 }
+
+/// `2>&1 | head` closes standard error before the last message: work is done and status told all the same.
+#[cfg(unix)]
+#[test]
+fn messages_may_go_unread() {
+    use std::process::Stdio;
+    let folder = Folder::new("unread");
+    let bolt = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bolt-1.csv");
+    let bolt = bolt.to_str().expect("a path of this repository");
+    for (arguments, status) in [
+        (vec!["identify", bolt, "-o", "joint.json"], 0),
+        (vec!["diagnose", bolt, "-o", "result"], 0),
+        (vec!["diagnose", "nowhere.csv", "-o", "result"], 2),
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_iwan"));
+        command.current_dir(&folder.0).args(&arguments);
+        let pipes = command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut running = pipes.spawn().expect("the binary runs");
+        drop(running.stderr.take());
+        let ended = running.wait().expect("an end").code();
+        assert_eq!(ended, Some(status), "{arguments:?}");
+    }
+    assert!(folder.0.join("joint.json").exists());
+    assert!(folder.0.join("result/diagnosis.json").exists());
+}

@@ -96,7 +96,10 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     let start = Instant::now();
-    let progress = |stage: &str| eprintln!("[{:6.2} s] {stage}", start.elapsed().as_secs_f64());
+    let progress = |stage: &str| {
+        let seconds = start.elapsed().as_secs_f64();
+        output::tell(&format!("[{seconds:6.2} s] {stage}"));
+    };
     let (mut findings, missing) = match tables(&loaded)? {
         Some(tables) => {
             let found = diagnose_tables(&tables, &known, progress)
@@ -120,7 +123,9 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let joint = match &missing {
         None => Some(write(&saved(&findings, &loaded))),
         Some(why) => {
-            eprintln!("neither joint.json nor joint.fmu is written: {why}");
+            output::tell(&format!(
+                "neither joint.json nor joint.fmu is written: {why}"
+            ));
             None
         }
     };
@@ -145,11 +150,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
         output::write(&path, |out| Ok(out.write_all(bytes)?))?;
-        eprintln!(
-            "[{:6.2} s] {}",
-            start.elapsed().as_secs_f64(),
-            path.display()
-        );
+        progress(&path.display().to_string());
     }
     let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
     clear(&arguments.output, &written)?;
@@ -166,7 +167,10 @@ fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
         let path = folder.join(name);
         if !written.contains(&name) && path.is_file() {
             std::fs::remove_file(&path)?;
-            eprintln!("{} of an earlier diagnosis is removed", path.display());
+            output::tell(&format!(
+                "{} of an earlier diagnosis is removed",
+                path.display()
+            ));
         }
     }
     Ok(())
@@ -175,7 +179,7 @@ fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
 /// The unit for this machine; said and left out where there is no library for it.
 fn archive(joint: &str, drive: Drive) -> anyhow::Result<Option<Vec<u8>>> {
     let library = Library::of_this_machine(FmiVersion::Two)
-        .map_err(|error| eprintln!("no joint.fmu is written: {error}"))
+        .map_err(|error| output::tell(&format!("no joint.fmu is written: {error}")))
         .ok();
     let bytes =
         library.map(|library| Archive::new(joint, "joint.json", drive, &[library])?.bytes());

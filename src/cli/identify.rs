@@ -38,7 +38,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     output::admit(&arguments.output, &arguments.records.paths())?;
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
-    eprintln!("identifying from {} record(s) …", loaded.len());
+    output::tell(&format!("identifying from {} record(s) …", loaded.len()));
     let found = Found::from(&loaded, &known).map_err(|e| BadInput(e.to_string()))?;
     let report = if arguments.json {
         json::report(&found)
@@ -47,14 +47,17 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     };
     if arguments.output == Path::new("-") {
         // The joint has the standard output for itself.
-        eprint!("{report}");
+        output::tell(report.trim_end());
     } else {
         output::print(&report)?;
     }
     let joint = match &found.joint {
         Ok(joint) => joint,
         Err(why) => {
-            eprintln!("{} is not written: {why}", arguments.output.display());
+            output::tell(&format!(
+                "{} is not written: {why}",
+                arguments.output.display()
+            ));
             return Ok(());
         }
     };
@@ -67,7 +70,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
         out.write_all(crate::saved::write(&saved).as_bytes())?;
         Ok(())
     })?;
-    eprintln!("wrote {}", arguments.output.display());
+    output::tell(&format!("wrote {}", arguments.output.display()));
     Ok(())
 }
 

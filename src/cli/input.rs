@@ -106,7 +106,7 @@ impl BesideTable {
 /// Says on stderr what was assumed while reading a file.
 pub fn tell_notes(file: &Path, notes: &[String]) {
     for note in notes {
-        eprintln!("{}: {note}", file.display());
+        super::output::tell(&format!("{}: {note}", file.display()));
     }
 }
 

@@ -64,9 +64,9 @@ pub fn main() -> ExitCode {
             .location()
             .map_or(String::new(), |at| format!(" at {at}"));
         let message = panic.payload_as_str().unwrap_or("no message");
-        eprintln!("iwan: defect{place}: {message}");
-        eprintln!(
-            "iwan: the program is wrong here, not the input; please report the command line and this message"
+        output::tell(&format!("iwan: defect{place}: {message}"));
+        output::tell(
+            "iwan: the program is wrong here, not the input; please report the command line and this message",
         );
     }));
     conclude(|| run(&command)).into()
@@ -77,7 +77,7 @@ fn conclude(run: impl FnOnce() -> anyhow::Result<()>) -> u8 {
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(Ok(())) => 0,
         Ok(Err(error)) => {
-            eprintln!("iwan: {error:#}");
+            output::tell(&format!("iwan: {error:#}"));
             status(&error)
         }
         Err(_) => DEFECT,

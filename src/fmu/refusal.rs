@@ -139,7 +139,7 @@ pub enum Refusal {
     #[error("expected a step that ends by the stop time {stop} s, came one to {came} s")]
     PastStop { stop: f64, came: f64 },
     /// Times of an experiment that cannot be.
-    #[error("expected finite times with stop after start, came start {start} s, stop {stop:?} s")]
+    #[error("expected finite times with stop after start, came start {start} s, {}", stopping(*stop))]
     Times { start: f64, stop: Option<f64> },
     /// A status that is not asked like this.
     #[error("expected status kind {expected}, came {came}")]
@@ -153,4 +153,8 @@ pub enum Refusal {
     /// A panic that was held: a defect of this library.
     #[error("a defect in the joint's library was held: {message}; the instance needs a reset")]
     Defect { message: String },
+}
+
+fn stopping(stop: Option<f64>) -> String {
+    stop.map_or("no stop".to_owned(), |stop| format!("stop {stop} s"))
 }

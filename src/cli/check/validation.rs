@@ -299,6 +299,7 @@ fn described(
         };
         let number = |key: &str| real.get(key).and_then(|text| text.parse::<f64>().ok());
         let finite = |bound: f64| Some(bound).filter(|bound| bound.is_finite());
+        let written = |number: Option<f64>| number.map_or("none".to_owned(), |n| n.to_string());
         let mut differs = |what: &str, expected: String, came: String| {
             if expected != came {
                 faults.push(format!(
@@ -317,7 +318,7 @@ fn described(
             ("max", finite(variable.upper)),
             ("start", variable.start(joint)),
         ] {
-            differs(key, format!("{expected:?}"), format!("{:?}", number(key)));
+            differs(key, written(expected), written(number(key)));
         }
     }
 }

@@ -108,9 +108,9 @@ impl Found {
     ) -> Result<Found, NothingFound> {
         let seed = seed::of_records(records)?;
         let drive = family::drive_for(&seed);
-        eprintln!("fitting the family with the exact response …");
+        crate::cli::output::tell("fitting the family with the exact response …");
         let fit = family::fit(records, &seed, drive)?;
-        eprintln!("fitting a joint of any density …");
+        crate::cli::output::tell("fitting a joint of any density …");
         let any_joint_rms = any_joint(records, drive);
         let mut noticed = seed.findings.clone();
         if fit.relative_rms > POOR {
