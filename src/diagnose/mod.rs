@@ -158,10 +158,14 @@ fn assemble(
     let chi = whole.misfit / bench.whole.rows().max(1) as f64;
     let named = !whole.effects.is_empty();
     let timed = records.iter().all(|r| r.time.is_some());
-    let left = match structure_before.share > 0.0 {
-        true => (structure_after.share / structure_before.share).min(1.0),
+    let of_before = |share: f64| match structure_before.share > 0.0 {
+        true => (share / structure_before.share).clamp(0.0, 1.0),
         false => 0.0,
     };
+    let left = of_before(structure_after.share);
+    // Noise alone leaves a share as large as its standard error now and then, and beside a small effect
+    // that is a large part of it.
+    let beyond_noise = of_before(structure_after.share - structure_after.error);
     let doubles = doubles(&whole, &modelled);
     let verdict = verdict::verdict(
         named.then(|| {
@@ -173,14 +177,14 @@ fn assemble(
         &structure_after,
         bench.most_left(),
         chi,
-        probability::unlisted(&found, left),
+        probability::unlisted(&found, beyond_noise),
     );
     let causes = named_causes(bench, &found, &whole);
-    let left = match verdict {
-        Verdict::Clean => 0.0,
-        _ => left,
+    let (left, beyond_noise) = match verdict {
+        Verdict::Clean => (0.0, 0.0),
+        _ => (left, beyond_noise),
     };
-    let candidates = candidates(bench, &found, &before, left);
+    let candidates = candidates(bench, &found, &before, beyond_noise);
     let joint = exported::joint(&bench.whole.operators, &whole)?;
     let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
     let mut notes = words::notes(records, bench);

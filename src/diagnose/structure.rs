@@ -10,6 +10,8 @@ use crate::record::noise::Noise;
 pub struct Structure {
     /// Variance that means over bins share, over the variance within bins: zero for noise.
     pub share: f64,
+    /// Standard error of the share where noise alone is left.
+    pub error: f64,
     /// Standard deviations by which the bins' means exceed what noise gives them, none counted for
     /// more than [`LOUDEST`].
     pub significance: f64,
@@ -106,6 +108,7 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
     if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
             share: 0.0,
+            error: 0.0,
             significance: 0.0,
             correlation,
             places: Vec::new(),
@@ -133,6 +136,7 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
     places.truncate(5);
     Structure {
         share: (excess / total).max(0.0),
+        error: scatter / total,
         significance: (heard - mean) / scatter,
         correlation,
         places,
@@ -239,5 +243,59 @@ fn cuts(input: &[f64], from: usize, to: usize) -> Vec<(usize, usize)> {
     match inside.first() {
         Some(&(first, _)) if first - from < 8 => inside,
         _ => vec![(from, to)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::Form;
+    use crate::record::Record;
+
+    #[test]
+    fn noise_leaves_a_share_beyond_its_standard_error_once_in_six_times() {
+        let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
+        let mut state = 20261122_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let mut record = Record {
+            force: time
+                .iter()
+                .map(|t| t * (std::f64::consts::TAU * t).sin())
+                .collect(),
+            displacement: vec![0.0; time.len()],
+            time: Some(time),
+            ..Record::default()
+        };
+        let white = Noise {
+            deviation: 1.0,
+            autoregression: 0.0,
+            samples: 1_000_000,
+            repeated: true,
+        };
+        let nothing = Prediction {
+            judged: vec![0.0; record.displacement.len()],
+            ..Prediction::default()
+        };
+        let mut beyond = 0;
+        for _ in 0..300 {
+            for value in &mut record.displacement {
+                // Of twelve even variables the sum has a variance of one.
+                *value = (0..12).map(|_| random()).sum();
+            }
+            let problem = Problem::new(Form::Play, std::slice::from_ref(&record));
+            let seen = structure(
+                &problem,
+                std::slice::from_ref(&nothing),
+                std::slice::from_ref(&white),
+            );
+            beyond += usize::from(seen.share > seen.error);
+        }
+        // One in 6.3 is 48; three standard deviations of that are 19.
+        assert!((29..=67).contains(&beyond), "{beyond}");
     }
 }

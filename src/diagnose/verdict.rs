@@ -60,6 +60,7 @@ mod tests {
     fn nothing_that_is_many_times_the_known_noise_is_clean() {
         let random = Structure {
             share: 0.0,
+            error: 0.0,
             significance: -9.0,
             correlation: 0.05,
             places: Vec::new(),
