@@ -58,13 +58,24 @@ pub(super) fn slopes(
     slopes
 }
 
+/// Factor by which a value that cannot be zero falls in one step at most.
+const DEEPEST: f64 = 10.0;
+
 /// Effects after a step along the moves, kept inside their bounds.
+///
+/// A value `v` that cannot be zero, a time or a rate, is a scale: a fall by `d` takes it to `v/(1 + d/v)`, the
+/// same to first order. At a bound decades below, where a straight step ends, nothing depends on it any more.
 pub(super) fn moved(effects: &[Acting], slopes: &[Slope], moves: &[f64]) -> Vec<Acting> {
     let mut moved = effects.to_vec();
     for (slope, step) in slopes.iter().zip(moves) {
         let parameter = &effects[slope.effect].effect.parameters()[slope.parameter];
         let value = &mut moved[slope.effect].values[slope.parameter];
-        *value = (*value + step * slope.unit).clamp(parameter.lower, parameter.upper);
+        let step = step * slope.unit;
+        let reached = match step < 0.0 && parameter.lower > 0.0 {
+            true => (*value / (1.0 - step / *value)).max(*value / DEEPEST),
+            false => *value + step,
+        };
+        *value = reached.clamp(parameter.lower, parameter.upper);
     }
     moved
 }
@@ -94,4 +105,73 @@ pub(super) fn hold(
         }
     }
     held
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::joint::effect::{Effect, Place};
+    use crate::joint::parameters::Parameter;
+
+    /// A law of a size and a time.
+    struct Slow;
+
+    static VALUES: [Parameter; 2] = [
+        Parameter {
+            name: "size",
+            symbol: "a",
+            unit: "1",
+            lower: -5.0,
+            upper: 5.0,
+            vanishes_at: Some(0.0),
+            neutral: None,
+            meaning: "may have any sign",
+        },
+        Parameter {
+            name: "time",
+            symbol: "t",
+            unit: "s",
+            lower: 1e-9,
+            upper: 1e9,
+            vanishes_at: None,
+            neutral: None,
+            meaning: "cannot be zero",
+        },
+    ];
+
+    impl Effect for Slow {
+        fn name(&self) -> &'static str {
+            "slow"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &VALUES
+        }
+    }
+
+    #[test]
+    fn a_time_falls_by_no_step_to_where_nothing_depends_on_it() {
+        let effect: &'static dyn Effect = &Slow;
+        let from = [Acting {
+            effect,
+            values: vec![1.0, 2.0],
+        }];
+        let slopes = [0, 1].map(|parameter| Slope {
+            effect: 0,
+            parameter,
+            unit: 0.1,
+            values: Vec::new(),
+        });
+        let after = |moves: [f64; 2]| moved(&from, &slopes, &moves)[0].values.clone();
+        // The size goes straight on, to its bound; so does the time upwards.
+        assert_eq!(after([-30.0, 30.0]), [-2.0, 5.0]);
+        assert_eq!(after([-90.0, 0.0]), [-5.0, 2.0]);
+        // Downwards as far as it would rise by the same step backwards.
+        assert_eq!(after([0.0, -20.0]), [1.0, 1.0]);
+        assert_eq!(after([0.0, -1e9]), [1.0, 0.2]);
+        let little = after([0.0, -1e-3])[1];
+        assert!((little - (2.0 - 1e-4)).abs() < 1e-8, "{little}");
+    }
 }
