@@ -8,6 +8,7 @@ pub mod findings;
 pub mod gain;
 mod growing;
 pub mod intervals;
+mod investigation;
 pub mod joint_parameters;
 pub mod left_out;
 pub mod levels;
@@ -27,8 +28,9 @@ pub use experiment::Options;
 pub use findings::Findings;
 
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
-use prepare::{Bench, prepare};
-use search::{Found, quick, search};
+use investigation::{Investigation, investigated};
+use prepare::Bench;
+use search::Found;
 use structure::structure;
 
 use crate::causes::{Kind, find};
@@ -68,22 +70,7 @@ pub fn diagnose_with(
         .collect();
     let records = thin.as_slice();
     let used: usize = records.iter().map(Record::len).sum();
-    progress("noise and baseline");
-    let mut bench = prepare(records);
-    if !bench.noise_is_repeated() {
-        progress("what is noise: a quick search, because too few cycles repeat");
-        for _ in 0..2 {
-            let found = quick(&bench, timed, &baseline(&bench.train));
-            let noise = bench.noise_from(&found);
-            bench.weigh(noise);
-        }
-    }
-    progress("searching the catalogue for causes");
-    let found = search(&bench, timed, baseline(&bench.train));
-    if !bench.noise_is_repeated() {
-        let noise = bench.noise_from(&found.best);
-        bench.weigh(noise);
-    }
+    let Investigation { bench, found } = investigated(records, timed, &mut progress);
     progress("measuring the gain on held-out cycles");
     let (found, said) = match &options.dummy {
         Some(dummy) => experiment::dummy::settle(&bench, found, dummy),

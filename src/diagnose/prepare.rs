@@ -3,6 +3,7 @@
 use super::mains_phase;
 use super::sizes::sizes;
 use crate::causes::Scale;
+use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::cycles::span;
@@ -26,6 +27,10 @@ pub struct Bench {
     pub noise: Vec<Noise>,
     /// Sizes for the starts of the search.
     pub scale: Scale,
+    /// How each record begins.
+    pub beginnings: Vec<Beginning>,
+    /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
+    pub unsure: Vec<usize>,
 }
 
 /// Correlation of neighbours above which what varies so slowly is rather structure than noise.
@@ -92,10 +97,10 @@ pub fn compliance_ratio(record: &Record) -> f64 {
     displacement / force / stiff
 }
 
-/// Prepares records: form, first unweighted baseline, noise, weights, marks.
-pub fn prepare(records: &[Record]) -> Bench {
+/// Prepares records with their beginnings: form, first unweighted baseline, noise, weights, marks.
+pub fn prepare(records: &[Record], beginnings: &[Beginning]) -> Bench {
     let form = form(records);
-    let mut problem = Problem::new(form, records);
+    let mut problem = Problem::begun(form, records, beginnings);
     let mut struck: Vec<Vec<bool>> = records.iter().map(|r| vec![false; r.len()]).collect();
     strike_channels(&mut problem, &mut struck);
     let (mut whole, mut first) = fitted(problem);
@@ -118,7 +123,14 @@ pub fn prepare(records: &[Record]) -> Bench {
         struck,
         noise: Vec::new(),
         scale,
+        beginnings: beginnings.to_vec(),
+        unsure: vec![0; records.len()],
     };
+    for (k, beginning) in beginnings.iter().enumerate() {
+        if !beginning.turned.is_empty() {
+            bench.unsure[k] = early(bench.whole.channels(k).0);
+        }
+    }
     bench.weigh(noise);
     bench
 }
@@ -167,13 +179,22 @@ impl Bench {
                 let record = &mut problem.records[k];
                 record.autoregression = a;
                 let marks = self.held[k].iter().zip(&self.struck[k]);
-                for (weight, (held, struck)) in record.weight.iter_mut().zip(marks) {
-                    let counts = !struck && (keep || !held);
+                for (i, (weight, (held, struck))) in record.weight.iter_mut().zip(marks).enumerate()
+                {
+                    let counts = !struck && (keep || !held) && i >= self.unsure[k];
                     *weight = if counts { 1.0 / innovation } else { 0.0 };
                 }
             }
         }
         self.noise = noise;
+    }
+
+    /// Weighs by what the given fit leaves where nothing repeats.
+    pub fn weigh_what_is_left(&mut self, fit: &Fit) {
+        if !self.noise_is_repeated() {
+            let noise = self.noise_from(fit);
+            self.weigh(noise);
+        }
     }
 
     /// Noise read off the residual of the given fit, for records in which nothing repeats: what

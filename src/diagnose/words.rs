@@ -3,6 +3,8 @@
 use super::findings::{Findings, Verdict};
 use super::prepare::{Bench, compliance_ratio};
 use super::structure::Structure;
+use crate::identify::Form;
+use crate::identify::beginning::Beginning;
 use crate::record::Record;
 
 /// The verdict in a sentence or two.
@@ -103,7 +105,7 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
     }
-    for (record, struck) in records.iter().zip(&bench.struck) {
+    for ((record, struck), beginning) in records.iter().zip(&bench.struck).zip(&bench.beginnings) {
         let count = struck.iter().filter(|s| **s).count();
         if count > 0 {
             notes.push(format!(
@@ -112,20 +114,37 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
                 record.len()
             ));
         }
-        let largest = record.force.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        if record
-            .force
-            .first()
-            .is_some_and(|f| f.abs() > 0.05 * largest)
-        {
-            notes.push(format!(
-                "Record {} does not start at rest: its first cycle holds the memory of loads before it.",
-                record.name
-            ));
-        }
+        notes.extend(begins(record, beginning, bench.whole.operators.form));
     }
     notes
 }
+
+/// How a record begins, where that is not with a virgin joint at the zero of what drives it.
+fn begins(record: &Record, beginning: &Beginning, form: Form) -> Option<String> {
+    let (drive, unit, channel) = match form {
+        Form::Play => ("force", "N", &record.force),
+        Form::Stop => ("displacement", "m", &record.displacement),
+    };
+    let name = &record.name;
+    let largest = channel.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let first = channel.first().copied().unwrap_or(0.0);
+    if let Some(last) = beginning.turned.last() {
+        return Some(format!(
+            "Record {name} begins in the middle of a test: its {drive} came from a turn at {last:.3e} {unit} or so."
+        ));
+    }
+    if beginning.zero != 0.0 {
+        return Some(format!(
+            "Record {name} begins at rest at a {drive} of {first:.3e} {unit}, which was taken for the zero of its sensor."
+        ));
+    }
+    (first.abs() > NOT_ZERO * largest).then(|| {
+        format!("Record {name} does not start at rest: its {drive} was taken to have come straight from zero.")
+    })
+}
+
+/// Share of the largest reading below which the first one is zero.
+const NOT_ZERO: f64 = 0.05;
 
 /// What would settle an ambiguity.
 pub fn next_experiment(findings: &Findings) -> Option<String> {

@@ -239,6 +239,17 @@ impl<'a> March<'a> {
         self.earlier = None;
     }
 
+    /// Takes the joint through loads before the first sample: it remembers where they turned, and nothing else
+    /// that effects keep; no work is counted.
+    pub(super) fn precede(&mut self, time: f64, turned: &[f64]) {
+        for &input in turned {
+            self.step(time, 0.0, input);
+        }
+        self.memories.iter_mut().for_each(|m| m.fill(0.0));
+        self.earlier = None;
+        self.last.dissipation = 0.0;
+    }
+
     fn update_limits(&mut self) {
         if !self.has[index(Place::SlipLimit)] {
             return;

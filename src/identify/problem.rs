@@ -1,5 +1,6 @@
 //! Records prepared for identification: one judged channel, weights, whitening, one common grid.
 
+use super::beginning::Beginning;
 use super::late::{lateness, read_ahead};
 use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
@@ -30,6 +31,8 @@ pub struct Prepared {
     pub autoregression: f64,
     /// What the input did between samples; no samples of their own, but the joint was there.
     pub between: Between,
+    /// Readings of the input at which the load had turned before the first sample, oldest first.
+    pub turned: Vec<f64>,
 }
 
 impl Prepared {
@@ -48,6 +51,7 @@ impl Prepared {
             displacement: record.displacement.clone(),
             weight: vec![1.0; time.len()],
             autoregression: 0.0,
+            turned: Vec::new(),
             time,
         };
         prepared.look_between(form);
@@ -57,6 +61,19 @@ impl Prepared {
     /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
     pub fn look_between(&mut self, form: Form) {
         self.between = between(&self.time, self.channels(form).0);
+    }
+
+    /// The record with another beginning than a virgin joint's; its input counts from the zero of that.
+    pub fn begin(&mut self, form: Form, beginning: &Beginning) {
+        self.turned.clone_from(&beginning.turned);
+        if beginning.zero != 0.0 {
+            let input = match form {
+                Form::Play => &mut self.force,
+                Form::Stop => &mut self.displacement,
+            };
+            input.iter_mut().for_each(|x| *x -= beginning.zero);
+            self.look_between(form);
+        }
     }
 
     /// Time from the first sample to the last \[s\].
@@ -99,7 +116,20 @@ pub struct Prediction {
 impl Problem {
     /// Prepares records; the grid covers the largest input of any of them.
     pub fn new(form: Form, records: &[Record]) -> Problem {
-        let prepared: Vec<Prepared> = records.iter().map(|r| Prepared::new(r, form)).collect();
+        let virgin = vec![Beginning::default(); records.len()];
+        Problem::begun(form, records, &virgin)
+    }
+
+    /// Prepares records with their beginnings.
+    pub fn begun(form: Form, records: &[Record], beginnings: &[Beginning]) -> Problem {
+        let both = records.iter().zip(beginnings);
+        let prepared: Vec<Prepared> = both
+            .map(|(record, beginning)| {
+                let mut prepared = Prepared::new(record, form);
+                prepared.begin(form, beginning);
+                prepared
+            })
+            .collect();
         let range = prepared
             .iter()
             .flat_map(|p| p.channels(form).0)

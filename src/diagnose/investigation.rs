@@ -1,0 +1,137 @@
+//! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint.
+
+use super::prepare::{Bench, prepare};
+use super::search::{Found, quick, search};
+use super::trials::{ALARM, dispersion};
+use crate::identify::beginning::{Beginning, at_zero, beginnings, sharpened};
+use crate::identify::{Problem, baseline, refit};
+use crate::record::Record;
+
+/// Times that turns and joint are fitted to each other in turn.
+const ROUNDS: usize = 3;
+
+/// Records, and what was found in them.
+pub struct Investigation {
+    /// The records, with how each of them begins.
+    pub bench: Bench,
+    /// What the search found.
+    pub found: Found,
+}
+
+/// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
+/// shows first, in records that begin so; the likelier of both.
+pub fn investigated(
+    records: &[Record],
+    timed: bool,
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
+    progress("noise and baseline");
+    let virgin = vec![Beginning::default(); records.len()];
+    let bench = prepare(records, &virgin);
+    let others = beginnings(&bench.train, &baseline(&bench.train));
+    let mut all = vec![searched(bench, timed, progress)];
+    for other in others {
+        progress("once more: a record may begin in the middle of a test, or its zero may be off");
+        all.push(searched(prepare(records, &other), timed, progress).sharpened());
+    }
+    // Who starts a record at zero has a virgin joint as a rule.
+    let train = &all[0].bench.train;
+    let at_zero = |k: usize| at_zero(train.channels(k).0);
+    let as_a_rule = |i: &Investigation| {
+        let mut records = i.bench.beginnings.iter().enumerate();
+        !i.is_virgin() && records.all(|(k, b)| b.is_virgin() || at_zero(k))
+    };
+    let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
+    let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
+    let unlikely = |i: &Investigation| {
+        let margin = if as_a_rule(i) { ALARM } else { 0.0 };
+        i.unlikeliness(scale) + margin
+    };
+    let order: Vec<f64> = all.iter().map(unlikely).collect();
+    let mut best = 0;
+    for (i, unlikely) in order.iter().enumerate() {
+        if *unlikely < order[best] {
+            best = i;
+        }
+    }
+    all.swap_remove(best)
+}
+
+fn searched(mut bench: Bench, timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
+    if !bench.noise_is_repeated() {
+        progress("what is noise: a quick search, because too few cycles repeat");
+        for _ in 0..2 {
+            let found = quick(&bench, timed, &baseline(&bench.train));
+            let noise = bench.noise_from(&found);
+            bench.weigh(noise);
+        }
+    }
+    progress("searching the catalogue for causes");
+    let found = search(&bench, timed, baseline(&bench.train));
+    bench.weigh_what_is_left(&found.best);
+    Investigation { bench, found }
+}
+
+impl Investigation {
+    fn is_virgin(&self) -> bool {
+        self.bench.beginnings.iter().all(Beginning::is_virgin)
+    }
+
+    /// The same with first samples as witnesses again, the turns before them where they ask for those beside what
+    /// was found, and everything refitted to both.
+    fn sharpened(mut self) -> Investigation {
+        if self.is_virgin() {
+            return self;
+        }
+        self.bench.unsure.fill(0);
+        self.bench.weigh(self.bench.noise.clone());
+        for _ in 0..ROUNDS {
+            for k in 0..self.bench.beginnings.len() {
+                self.sharpen(k);
+            }
+            let best = &self.found.best;
+            self.found.best = refit(&self.bench.train, best, best.effects.clone());
+        }
+        self.found.baseline = baseline(&self.bench.train);
+        if self.found.best.effects.is_empty() {
+            self.found.best = self.found.baseline.clone();
+        }
+        self.bench.weigh_what_is_left(&self.found.best);
+        self
+    }
+
+    fn sharpen(&mut self, k: usize) {
+        let begun = self.bench.beginnings[k].clone();
+        if begun.turned.is_empty() {
+            return;
+        }
+        let (train, fit) = (&self.bench.train, &self.found.best);
+        let left = |beginning: &Beginning| {
+            let mut one = Problem {
+                operators: train.operators.clone(),
+                records: vec![train.records[k].clone()],
+            };
+            one.records[0].turned.clone_from(&beginning.turned);
+            let (misfit, _) = one.misfit(&one.predict(&fit.coefficients, &fit.acting()));
+            (misfit, misfit)
+        };
+        let (_, sharp) = sharpened((left(&begun), begun), left);
+        for problem in [&mut self.bench.train, &mut self.bench.whole] {
+            problem.records[k].turned.clone_from(&sharp.turned);
+        }
+        self.bench.beginnings[k] = sharp;
+    }
+
+    /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
+    /// every value that the model chose: those of its causes, and of beginnings that are not a virgin joint's.
+    fn unlikeliness(&self, dispersion: f64) -> f64 {
+        let train = &self.bench.train;
+        let (misfit, _) = train.misfit(&self.found.best.predict(train));
+        let weights = train.records.iter().flat_map(|r| &r.weight);
+        let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
+        let of_causes: usize = self.found.best.effects.iter().map(|a| a.values.len()).sum();
+        let of_beginnings: usize = self.bench.beginnings.iter().map(Beginning::values).sum();
+        let values = (of_causes + of_beginnings) as f64;
+        innovations + misfit / dispersion + values * (train.rows().max(3) as f64).ln()
+    }
+}

@@ -1,0 +1,304 @@
+//! What a joint went through before a record begins.
+//!
+//! A joint remembers where its load has turned. A record that begins in the middle of a test, or whose
+//! driving channel does not read zero where the joint is at rest, is answered by another joint than a
+//! virgin one until its own load has been everywhere before; taken for virgin, it would look as if friction
+//! changed over the first cycles.
+
+use super::fit::{Fit, baseline};
+use super::operators::{Form, Operators};
+use super::problem::{Prepared, Problem};
+use crate::record::cycles::turning_points;
+
+/// How a record begins, in units of the driving channel.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Beginning {
+    /// Reading at which the joint is at rest: the zero of the driving channel.
+    pub zero: f64,
+    /// Readings at which the load had turned before, oldest first; none for a virgin joint.
+    pub turned: Vec<f64>,
+}
+
+impl Beginning {
+    /// A virgin joint that is at rest at a reading.
+    pub fn at(zero: f64) -> Beginning {
+        Beginning {
+            zero,
+            turned: Vec::new(),
+        }
+    }
+
+    /// True for a virgin joint at the zero of its channel.
+    pub fn is_virgin(&self) -> bool {
+        *self == Beginning::default()
+    }
+
+    /// Count of values that it takes to say.
+    pub fn values(&self) -> usize {
+        usize::from(self.zero != 0.0) + self.turned.len()
+    }
+}
+
+/// Share of the largest reading below which the first one is zero.
+const ZERO: f64 = 0.02;
+
+/// Mean square of what the baseline leaves in the beginning, over that of the rest, above which another
+/// beginning is tried.
+const DOUBTFUL: f64 = 2.0;
+
+/// Share of what a virgin joint leaves in the beginning that another beginning may leave.
+const HALF: f64 = 0.5;
+
+/// Fall of the misfit, over what is left per sample, that another beginning must bring.
+const FALL: f64 = 30.0;
+
+/// Share of the range below which a turn of the load is none.
+const BAND: f64 = 0.02;
+
+/// Shares of the way back to the last turn at which the load may have turned before the record began.
+const BACK: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Other beginnings of the records that are worth a search, none where no other comes near the truth of any.
+///
+/// Each record is asked alone, by the misfit of the best joint for it: another beginning has to take away half of
+/// what a virgin joint leaves until the load has turned twice; where the first reading is not zero, which a
+/// virgin joint's is as a rule, any part of it. There the reading itself as the zero is another alternative, however
+/// much it leaves beside causes not yet known. `first` is the baseline of virgin joints.
+pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
+    let form = problem.operators.form;
+    let predictions = first.predict(problem);
+    let both = problem.records.iter().zip(&predictions);
+    let nearest: Vec<Beginning> = both
+        .map(|(record, prediction)| beginning(form, record, &prediction.judged))
+        .collect();
+    let reading = |record: &Prepared| {
+        let (input, _) = record.channels(form);
+        match at_zero(input) {
+            true => Beginning::default(),
+            false => Beginning::at(input[0]),
+        }
+    };
+    let readings = problem.records.iter().map(reading).collect();
+    let mut all: Vec<Vec<Beginning>> = vec![nearest, readings];
+    all.dedup();
+    all.retain(|one| one.iter().any(|b| !b.is_virgin()));
+    all
+}
+
+/// True where the first reading is none beside the largest.
+pub fn at_zero(input: &[f64]) -> bool {
+    let largest = input.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    input.first().is_none_or(|x| x.abs() <= ZERO * largest)
+}
+
+fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
+    let (input, judged) = record.channels(form);
+    let turns = turning_points(input, BAND);
+    let (Some(&start), Some(&second)) = (input.first(), turns.get(2)) else {
+        return Beginning::default();
+    };
+    let left = |predicted: &[f64]| -> (f64, f64) {
+        let square = |i: usize| match record.counts(i) {
+            true => (judged[i] - predicted[i]).powi(2),
+            false => 0.0,
+        };
+        let sum = |from: usize, to: usize| (from..to).map(square).sum::<f64>();
+        (sum(0, second + 1), sum(second + 1, judged.len()))
+    };
+    let (early, late) = left(predicted);
+    let rest = judged.len() - (second + 1).min(judged.len());
+    let doubtful = rest > 0 && early / (second + 1) as f64 > DOUBTFUL * late / rest as f64;
+    let offset = !at_zero(input);
+    if !doubtful && !offset {
+        return Beginning::default();
+    }
+    let fitted = |beginning: &Beginning| {
+        let one = alone(form, record, beginning);
+        let fit = baseline(&one);
+        let (early, late) = left(&fit.predict(&one)[0].judged);
+        (early, early + late)
+    };
+    let virgin = Beginning::default();
+    let (virgin_early, virgin_all) = fitted(&virgin);
+    let mut others = histories(input, &turns);
+    if offset {
+        others.push(Beginning::at(start));
+    }
+    let tried = others.into_iter().map(|b| (fitted(&b), b));
+    let Some(best) = tried.min_by(|((_, a), _), ((_, b), _)| a.total_cmp(b)) else {
+        return virgin;
+    };
+    let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
+    let mut best = sharpened(best, fitted);
+    let (low, high) = low_high(input.iter().copied());
+    while best.1.turned.len() < DEEPEST && !best.1.turned.is_empty() {
+        let older = [low, high].map(|turn| {
+            let mut older = best.1.clone();
+            older.turned.insert(0, turn);
+            sharpened((fitted(&older), older), fitted)
+        });
+        match older.into_iter().find(|o| wins(o.0.1, best.0.1)) {
+            Some(older) => best = older,
+            None => break,
+        }
+    }
+    let ((early, all), other) = best;
+    let nearer = offset || early < HALF * virgin_early;
+    match nearer && wins(all, virgin_all) {
+        true => other,
+        false => virgin,
+    }
+}
+
+/// Most turns that a record is asked for.
+const DEEPEST: usize = 4;
+
+/// Rounds of halved moves of the turns.
+const ROUNDS: usize = 5;
+
+/// What a beginning leaves early on and altogether, and the beginning.
+pub type Judged = ((f64, f64), Beginning);
+
+/// The same with turns where they leave least altogether, by what `fitted` says of a beginning.
+pub fn sharpened(best: Judged, fitted: impl Fn(&Beginning) -> (f64, f64)) -> Judged {
+    let mut best = best;
+    let turned = &best.1.turned;
+    let (low, high) = low_high(turned.iter().copied());
+    let mut move_by = high - low;
+    let places = turned.len();
+    for _ in 0..ROUNDS {
+        move_by *= 0.5;
+        for (place, way) in (0..places).flat_map(|place| [(place, 1.0), (place, -1.0)]) {
+            let mut other = best.1.clone();
+            other.turned[place] += way * 0.25 * move_by;
+            let judged = fitted(&other);
+            if judged.1 < best.0.1 {
+                best = (judged, other);
+            }
+        }
+    }
+    best
+}
+
+/// Samples until the load has turned twice: what came before the record is forgotten by then, or nearly so.
+pub fn early(input: &[f64]) -> usize {
+    turning_points(input, BAND)
+        .get(2)
+        .map_or(0, |second| second + 1)
+}
+
+/// Readings between which the load may have gone before, and where it turned last.
+fn histories(input: &[f64], turns: &[usize]) -> Vec<Beginning> {
+    let start = input[0];
+    // Without the first sample, which counts as a turn and is none.
+    let first = low_high(turns[1..=2].iter().map(|&t| input[t]));
+    let whole = low_high(input.iter().copied());
+    let mut all = Vec::new();
+    for (low, high) in [first, whole] {
+        for (before, last) in [(high, low), (low, high)] {
+            all.push(vec![before, last]);
+            all.extend(BACK.map(|share| vec![before, start + share * (last - start)]));
+        }
+    }
+    all.into_iter()
+        .map(|turned| Beginning { zero: 0.0, turned })
+        .collect()
+}
+
+fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
+}
+
+/// One record with a beginning, on a grid for its own range.
+fn alone(form: Form, record: &Prepared, beginning: &Beginning) -> Problem {
+    let mut record = record.clone();
+    record.begin(form, beginning);
+    let (input, _) = record.channels(form);
+    let range = input.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    Problem {
+        operators: Operators::grid(form, range),
+        records: vec![record],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Record;
+
+    const SAMPLES: usize = 1500;
+
+    /// What the force does of which records are cut: blocks of three levels, up and down.
+    fn force(i: usize) -> f64 {
+        let level = [400.0, 1000.0, 700.0, 900.0, 500.0][i * 5 / (2 * SAMPLES)];
+        level * (std::f64::consts::TAU * 0.01 * i as f64).sin()
+    }
+
+    /// A joint under that force from sample `from` on, with noise of a thousandth, as a record of its own
+    /// whose force reads `zero` too much.
+    fn record(from: usize, zero: f64) -> Problem {
+        let force: Vec<f64> = (0..2 * SAMPLES).map(force).collect();
+        let test = |force: &[f64]| Record {
+            displacement: vec![0.0; force.len()],
+            time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
+            force: force.to_vec(),
+            ..Record::default()
+        };
+        let played = Problem::new(Form::Play, &[test(&force)]);
+        let mut joint = vec![0.0; played.operators.columns()];
+        joint[0] = 1e-9;
+        joint[1..=played.operators.edges.len()].fill(1e-10);
+        let answer = &played.predict(&joint, &[])[0].judged;
+        let mut state = 20261122_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let kept = from..from + SAMPLES;
+        let read: Vec<f64> = force[kept.clone()].iter().map(|f| f + zero).collect();
+        let mut cut = test(&read);
+        cut.displacement = answer[kept].iter().map(|u| u + 3e-9 * random()).collect();
+        Problem::new(Form::Play, &[cut])
+    }
+
+    fn found(problem: &Problem) -> Option<Beginning> {
+        let all = beginnings(problem, &baseline(problem));
+        all.first().map(|one| one[0].clone())
+    }
+
+    #[test]
+    fn a_virgin_joint_has_no_other_beginning() {
+        assert_eq!(found(&record(0, 0.0)), None);
+    }
+
+    #[test]
+    fn the_zero_of_a_force_is_where_it_begins() {
+        let other = found(&record(0, 150.0)).unwrap();
+        assert!((other.zero - 150.0).abs() < 1e-9 && other.turned.is_empty());
+    }
+
+    #[test]
+    fn a_record_that_begins_late_is_answered_from_where_the_load_turned() {
+        // In the level of 1000 N, behind its valley and behind its peak.
+        for (from, last, within) in [(690, -1000.0, 20.0), (640, 1000.0, 20.0)] {
+            let problem = record(from, 0.0);
+            let virgin = baseline(&problem).misfit;
+            let other = found(&problem).unwrap();
+            let turn = *other.turned.last().unwrap();
+            assert!((turn - last).abs() < within, "{from}: {other:?}");
+            let mut begun = problem.clone();
+            begun.records[0].begin(Form::Play, &other);
+            // Noise alone: a twelfth of the square of its width for every sample.
+            let noise = SAMPLES as f64 * 9e-18 / 12.0;
+            let left = baseline(&begun).misfit;
+            assert!(
+                virgin > 3.0 * noise && left < 1.15 * noise,
+                "{from}: {virgin} {left} {noise}"
+            );
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Records that begin in the middle of a test, or whose zero is off, are no joints with a cause.
+
+use iwan::diagnose::diagnose;
+use iwan::diagnose::findings::Verdict;
+use iwan::record::Record;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
+
+const CYCLE: usize = 80;
+
+/// Sixty sliders under a stepped sine of displacement with noise in the force: 22 cycles, of which the record
+/// keeps those from sample `from` on, reading `zero` too much.
+fn record(seed: u64, from: usize, zero: f64) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let levels = [1e-6, 2e-6, 4e-6, 3e-6];
+    let mut reached = [0.0_f64; 60];
+    let mut before = 0.0;
+    let (mut force, mut displacement) = (Vec::new(), Vec::new());
+    for i in 0..22 * CYCLE {
+        let level = levels[(i / CYCLE / 6).min(3)];
+        let u = level * (TAU * i as f64 / CYCLE as f64).sin();
+        for (j, d) in reached.iter_mut().enumerate() {
+            let most = 1e-7 * (j + 1) as f64;
+            *d = (*d + u - before).clamp(-most, most);
+        }
+        before = u;
+        if i >= from {
+            force.push(2e6 * reached.iter().sum::<f64>() + 0.3 * noise());
+            displacement.push(u + zero);
+        }
+    }
+    Record {
+        name: "cut".to_string(),
+        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
+        force,
+        displacement,
+        ..Record::default()
+    }
+}
+
+/// Seed of the noise; printed with every failure.
+const SEED: u64 = 20261122;
+
+#[test]
+fn a_clean_joint_is_clean_wherever_its_record_begins() {
+    // Behind a peak of the second level, behind a valley of the third; and a zero that is off by a quarter.
+    for (from, zero, said) in [
+        (6 * CYCLE + 120, 0.0, "in the middle of a test"),
+        (12 * CYCLE + 145, 0.0, "in the middle of a test"),
+        (0, 1e-6, "zero of its sensor"),
+    ] {
+        let findings = diagnose(&[record(SEED, from, zero)], |_| ()).unwrap();
+        let place = format!("seed {SEED}, from {from}, zero {zero}");
+        assert_eq!(findings.verdict, Verdict::Clean, "{place}: {findings:?}");
+        let noted = findings.notes.iter().any(|note| note.contains(said));
+        assert!(noted, "{place}: {:?}", findings.notes);
+    }
+}
+
+#[test]
+fn a_joint_from_rest_is_taken_for_what_it_is() {
+    let findings = diagnose(&[record(SEED, 0, 0.0)], |_| ()).unwrap();
+    assert_eq!(findings.verdict, Verdict::Clean);
+    let begins = |note: &&String| note.contains("begins");
+    assert_eq!(findings.notes.iter().find(begins), None);
+}
