@@ -173,6 +173,10 @@ impl Cause for Creep {
     fn needs_time(&self) -> bool {
         true
     }
+    /// An element that has settled within a sample is a spring that lags: a delay's or a dashpot's.
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        values[1] >= scale.step
+    }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let compliance = 0.01 * scale.displacement / scale.force;
         let by_period = [0.05, 0.2, 1.0].map(|share| share * scale.period);

@@ -17,8 +17,8 @@ struct Reading {
 /// not bound it.
 ///
 /// A refinement that the data do not ask for is left out of the law, yet they seldom rule it out:
-/// the interval is that of the mixture of both laws, weighed by Akaike's criterion, the named values
-/// in its middle.
+/// the interval is that of the mixture of both laws, weighed by Akaike's criterion, and
+/// reaches to the named values.
 pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<(f64, f64)>>> {
     let factor = student_95(STRETCHES_OF_FACTOR - 1);
     let mut readings = vec![reading(problem, fit, 0.0)];
@@ -44,6 +44,9 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
         own.is_finite().then(|| {
             let glossary = &fit.effects[effect].effect.parameters()[parameter];
             let (lower, upper) = mixed(&parts, factor);
+            // A likelier refinement may lie elsewhere altogether.
+            let named = readings[0].values[effect][parameter];
+            let (lower, upper) = (lower.min(named), upper.max(named));
             (lower.max(glossary.lower), upper.min(glossary.upper))
         })
     };
