@@ -4,7 +4,7 @@ use super::prepare::{Bench, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, dispersion};
 use crate::identify::beginning::{Beginning, at_zero, beginnings, sharpened};
-use crate::identify::{Problem, baseline, refit};
+use crate::identify::{Fit, Problem, baseline, refit};
 use crate::record::Record;
 
 /// Times that turns and joint are fitted to each other in turn.
@@ -28,23 +28,25 @@ pub fn investigated(
     progress("noise and baseline");
     let virgin = vec![Beginning::default(); records.len()];
     let bench = prepare(records, &virgin);
-    let others = beginnings(&bench.train, &baseline(&bench.train));
-    let mut all = vec![searched(bench, timed, progress)];
+    let first = baseline(&bench.train);
+    let others = beginnings(&bench.train, &first);
+    let mut all = vec![searched(bench, first, timed, progress)];
     for other in others {
         let bench = prepare(records, &other);
         if all[0].may_be_beaten_by(&bench) {
             progress(
                 "once more: a record may begin in the middle of a test, or its zero may be off",
             );
-            all.push(searched(bench, timed, progress).sharpened());
+            let first = baseline(&bench.train);
+            all.push(searched(bench, first, timed, progress).sharpened());
         }
     }
     // Who starts a record at zero has a virgin joint as a rule.
     let train = &all[0].bench.train;
     let at_zero = |k: usize| at_zero(train.channels(k).0);
     let as_a_rule = |i: &Investigation| {
-        let mut records = i.bench.beginnings.iter().enumerate();
-        !i.is_virgin() && records.all(|(k, b)| b.is_virgin() || at_zero(k))
+        let mut begun = i.beginnings().enumerate().filter(|(_, b)| !b.is_virgin());
+        !i.is_virgin() && begun.all(|(k, _)| at_zero(k))
     };
     let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
     let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
@@ -52,34 +54,39 @@ pub fn investigated(
         let margin = if as_a_rule(i) { ALARM } else { 0.0 };
         i.unlikeliness(scale) + margin
     };
-    let order: Vec<f64> = all.iter().map(unlikely).collect();
-    let mut best = 0;
-    for (i, unlikely) in order.iter().enumerate() {
-        if *unlikely < order[best] {
-            best = i;
-        }
-    }
-    all.swap_remove(best)
+    let order = all.iter().map(unlikely).enumerate();
+    let likeliest = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    let likeliest = likeliest.map_or(0, |(i, _)| i);
+    all.swap_remove(likeliest)
 }
 
-fn searched(mut bench: Bench, timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
+/// What is found from the baseline of the records as they are weighed.
+fn searched(
+    mut bench: Bench,
+    mut first: Fit,
+    timed: bool,
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
     if !bench.noise_is_repeated() {
         progress("what is noise: a quick search, because too few cycles repeat");
         for _ in 0..2 {
-            let found = quick(&bench, timed, &baseline(&bench.train));
-            let noise = bench.noise_from(&found);
-            bench.weigh(noise);
+            bench.weigh_what_is_left(&quick(&bench, timed, &first));
+            first = baseline(&bench.train);
         }
     }
     progress("searching the catalogue for causes");
-    let found = search(&bench, timed, baseline(&bench.train));
+    let found = search(&bench, timed, first);
     bench.weigh_what_is_left(&found.best);
     Investigation { bench, found }
 }
 
 impl Investigation {
+    fn beginnings(&self) -> impl Iterator<Item = &Beginning> {
+        self.bench.train.records.iter().map(|r| &r.beginning)
+    }
+
     fn is_virgin(&self) -> bool {
-        self.bench.beginnings.iter().all(Beginning::is_virgin)
+        self.beginnings().all(Beginning::is_virgin)
     }
 
     /// True where other beginnings leave less beside the causes that were found, or no more without any.
@@ -105,7 +112,7 @@ impl Investigation {
         self.bench.unsure.fill(0);
         self.bench.weigh(self.bench.noise.clone());
         for _ in 0..ROUNDS {
-            for k in 0..self.bench.beginnings.len() {
+            for k in 0..self.bench.train.records.len() {
                 self.sharpen(k);
             }
             let best = &self.found.best;
@@ -120,25 +127,23 @@ impl Investigation {
     }
 
     fn sharpen(&mut self, k: usize) {
-        let begun = self.bench.beginnings[k].clone();
+        let (train, fit) = (&self.bench.train, &self.found.best);
+        let begun = train.records[k].beginning.clone();
         if begun.turned.is_empty() {
             return;
         }
-        let (train, fit) = (&self.bench.train, &self.found.best);
         let left = |beginning: &Beginning| {
             let mut one = Problem {
                 operators: train.operators.clone(),
                 records: vec![train.records[k].clone()],
             };
-            one.records[0].turned.clone_from(&beginning.turned);
-            let (misfit, _) = one.misfit(&one.predict(&fit.coefficients, &fit.acting()));
-            (misfit, misfit)
+            one.records[0].beginning.clone_from(beginning);
+            one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
         };
-        let (_, sharp) = sharpened((left(&begun), begun), left);
+        let (_, sharp) = sharpened(begun, left);
         for problem in [&mut self.bench.train, &mut self.bench.whole] {
-            problem.records[k].turned.clone_from(&sharp.turned);
+            problem.records[k].beginning.clone_from(&sharp);
         }
-        self.bench.beginnings[k] = sharp;
     }
 
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
@@ -149,7 +154,7 @@ impl Investigation {
         let weights = train.records.iter().flat_map(|r| &r.weight);
         let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
         let of_causes: usize = self.found.best.effects.iter().map(|a| a.values.len()).sum();
-        let of_beginnings: usize = self.bench.beginnings.iter().map(Beginning::values).sum();
+        let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
         let values = (of_causes + of_beginnings) as f64;
         innovations + misfit / dispersion + values * (train.rows().max(3) as f64).ln()
     }

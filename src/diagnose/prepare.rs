@@ -27,8 +27,6 @@ pub struct Bench {
     pub noise: Vec<Noise>,
     /// Sizes for the starts of the search.
     pub scale: Scale,
-    /// How each record begins.
-    pub beginnings: Vec<Beginning>,
     /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
     pub unsure: Vec<usize>,
 }
@@ -123,7 +121,6 @@ pub fn prepare(records: &[Record], beginnings: &[Beginning]) -> Bench {
         struck,
         noise: Vec::new(),
         scale,
-        beginnings: beginnings.to_vec(),
         unsure: vec![0; records.len()],
     };
     for (k, beginning) in beginnings.iter().enumerate() {

@@ -251,17 +251,13 @@ mod tests {
     use super::*;
     use crate::identify::Form;
     use crate::record::Record;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     #[test]
     fn noise_leaves_a_share_beyond_its_standard_error_once_in_six_times() {
         let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
-        let mut state = 20261122_u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(20261122);
         let mut record = Record {
             force: time
                 .iter()
@@ -285,7 +281,7 @@ mod tests {
         for _ in 0..300 {
             for value in &mut record.displacement {
                 // Of twelve even variables the sum has a variance of one.
-                *value = (0..12).map(|_| random()).sum();
+                *value = (0..12).map(|_| random.random::<f64>() - 0.5).sum();
             }
             let problem = Problem::new(Form::Play, std::slice::from_ref(&record));
             let seen = structure(

@@ -105,7 +105,8 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
     }
-    for ((record, struck), beginning) in records.iter().zip(&bench.struck).zip(&bench.beginnings) {
+    for ((record, struck), prepared) in records.iter().zip(&bench.struck).zip(&bench.whole.records)
+    {
         let count = struck.iter().filter(|s| **s).count();
         if count > 0 {
             notes.push(format!(
@@ -114,7 +115,11 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
                 record.len()
             ));
         }
-        notes.extend(begins(record, beginning, bench.whole.operators.form));
+        notes.extend(begins(
+            record,
+            &prepared.beginning,
+            bench.whole.operators.form,
+        ));
     }
     notes
 }

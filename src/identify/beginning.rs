@@ -6,9 +6,9 @@
 //! changed over the first cycles.
 
 use super::fit::{Fit, baseline};
-use super::operators::{Form, Operators};
+use super::operators::Form;
 use super::problem::{Prepared, Problem};
-use crate::record::cycles::turning_points;
+use crate::record::cycles::{span, turning_points};
 
 /// How a record begins, in units of the driving channel.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -93,21 +93,21 @@ pub fn at_zero(input: &[f64]) -> bool {
 
 fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     let (input, judged) = record.channels(form);
-    let turns = turning_points(input, BAND);
-    let (Some(&start), Some(&second)) = (input.first(), turns.get(2)) else {
+    let forgotten = early(input);
+    if forgotten == 0 {
         return Beginning::default();
-    };
+    }
     let left = |predicted: &[f64]| -> (f64, f64) {
         let square = |i: usize| match record.counts(i) {
             true => (judged[i] - predicted[i]).powi(2),
             false => 0.0,
         };
         let sum = |from: usize, to: usize| (from..to).map(square).sum::<f64>();
-        (sum(0, second + 1), sum(second + 1, judged.len()))
+        (sum(0, forgotten), sum(forgotten, judged.len()))
     };
     let (early, late) = left(predicted);
-    let rest = judged.len() - (second + 1).min(judged.len());
-    let doubtful = rest > 0 && early / (second + 1) as f64 > DOUBTFUL * late / rest as f64;
+    let rest = judged.len() - forgotten;
+    let doubtful = rest > 0 && early / forgotten as f64 > DOUBTFUL * late / rest as f64;
     let offset = !at_zero(input);
     if !doubtful && !offset {
         return Beginning::default();
@@ -120,32 +120,32 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     };
     let virgin = Beginning::default();
     let (virgin_early, virgin_all) = fitted(&virgin);
-    let mut others = histories(input, &turns);
+    let mut others = histories(input);
     if offset {
-        others.push(Beginning::at(start));
+        others.push(Beginning::at(input[0]));
     }
-    let tried = others.into_iter().map(|b| (fitted(&b), b));
-    let Some(best) = tried.min_by(|((_, a), _), ((_, b), _)| a.total_cmp(b)) else {
+    let altogether = |beginning: &Beginning| fitted(beginning).1;
+    let tried = others.into_iter().map(|b| (altogether(&b), b));
+    let Some((_, best)) = tried.min_by(|(a, _), (b, _)| a.total_cmp(b)) else {
         return virgin;
     };
     let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
-    let mut best = sharpened(best, fitted);
+    let (mut all, mut best) = sharpened(best, altogether);
     let (low, high) = low_high(input.iter().copied());
-    while best.1.turned.len() < DEEPEST && !best.1.turned.is_empty() {
+    while best.turned.len() < DEEPEST && !best.turned.is_empty() {
         let older = [low, high].map(|turn| {
-            let mut older = best.1.clone();
+            let mut older = best.clone();
             older.turned.insert(0, turn);
-            sharpened((fitted(&older), older), fitted)
+            sharpened(older, altogether)
         });
-        match older.into_iter().find(|o| wins(o.0.1, best.0.1)) {
-            Some(older) => best = older,
+        match older.into_iter().find(|older| wins(older.0, all)) {
+            Some(older) => (all, best) = older,
             None => break,
         }
     }
-    let ((early, all), other) = best;
-    let nearer = offset || early < HALF * virgin_early;
+    let nearer = offset || fitted(&best).0 < HALF * virgin_early;
     match nearer && wins(all, virgin_all) {
-        true => other,
+        true => best,
         false => virgin,
     }
 }
@@ -156,23 +156,18 @@ const DEEPEST: usize = 4;
 /// Rounds of halved moves of the turns.
 const ROUNDS: usize = 5;
 
-/// What a beginning leaves early on and altogether, and the beginning.
-pub type Judged = ((f64, f64), Beginning);
-
-/// The same with turns where they leave least altogether, by what `fitted` says of a beginning.
-pub fn sharpened(best: Judged, fitted: impl Fn(&Beginning) -> (f64, f64)) -> Judged {
-    let mut best = best;
-    let turned = &best.1.turned;
-    let (low, high) = low_high(turned.iter().copied());
-    let mut move_by = high - low;
-    let places = turned.len();
+/// The same with turns where they leave least, by what `left` says of a beginning; and how much that is.
+pub fn sharpened(begun: Beginning, left: impl Fn(&Beginning) -> f64) -> (f64, Beginning) {
+    let mut move_by = span(&begun.turned);
+    let places = begun.turned.len();
+    let mut best = (left(&begun), begun);
     for _ in 0..ROUNDS {
         move_by *= 0.5;
         for (place, way) in (0..places).flat_map(|place| [(place, 1.0), (place, -1.0)]) {
             let mut other = best.1.clone();
             other.turned[place] += way * 0.25 * move_by;
-            let judged = fitted(&other);
-            if judged.1 < best.0.1 {
+            let judged = left(&other);
+            if judged < best.0 {
                 best = (judged, other);
             }
         }
@@ -188,8 +183,9 @@ pub fn early(input: &[f64]) -> usize {
 }
 
 /// Readings between which the load may have gone before, and where it turned last.
-fn histories(input: &[f64], turns: &[usize]) -> Vec<Beginning> {
+fn histories(input: &[f64]) -> Vec<Beginning> {
     let start = input[0];
+    let turns = turning_points(input, BAND);
     // Without the first sample, which counts as a turn and is none.
     let first = low_high(turns[1..=2].iter().map(|&t| input[t]));
     let whole = low_high(input.iter().copied());
@@ -215,18 +211,15 @@ fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn alone(form: Form, record: &Prepared, beginning: &Beginning) -> Problem {
     let mut record = record.clone();
     record.begin(form, beginning);
-    let (input, _) = record.channels(form);
-    let range = input.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    Problem {
-        operators: Operators::grid(form, range),
-        records: vec![record],
-    }
+    Problem::of(form, vec![record])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::record::Record;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     const SAMPLES: usize = 1500;
 
@@ -251,17 +244,12 @@ mod tests {
         joint[0] = 1e-9;
         joint[1..=played.operators.edges.len()].fill(1e-10);
         let answer = &played.predict(&joint, &[])[0].judged;
-        let mut state = 20261122_u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(20261122);
+        let mut noise = || 3e-9 * (random.random::<f64>() - 0.5);
         let kept = from..from + SAMPLES;
         let read: Vec<f64> = force[kept.clone()].iter().map(|f| f + zero).collect();
         let mut cut = test(&read);
-        cut.displacement = answer[kept].iter().map(|u| u + 3e-9 * random()).collect();
+        cut.displacement = answer[kept].iter().map(|u| u + noise()).collect();
         Problem::new(Form::Play, &[cut])
     }
 

@@ -31,8 +31,8 @@ pub struct Prepared {
     pub autoregression: f64,
     /// What the input did between samples; no samples of their own, but the joint was there.
     pub between: Between,
-    /// Readings of the input at which the load had turned before the first sample, oldest first.
-    pub turned: Vec<f64>,
+    /// What the joint went through before the first sample.
+    pub beginning: Beginning,
 }
 
 impl Prepared {
@@ -51,7 +51,7 @@ impl Prepared {
             displacement: record.displacement.clone(),
             weight: vec![1.0; time.len()],
             autoregression: 0.0,
-            turned: Vec::new(),
+            beginning: Beginning::default(),
             time,
         };
         prepared.look_between(form);
@@ -65,7 +65,7 @@ impl Prepared {
 
     /// The record with another beginning than a virgin joint's; its input counts from the zero of that.
     pub fn begin(&mut self, form: Form, beginning: &Beginning) {
-        self.turned.clone_from(&beginning.turned);
+        self.beginning.clone_from(beginning);
         if beginning.zero != 0.0 {
             let input = match form {
                 Form::Play => &mut self.force,
@@ -114,7 +114,7 @@ pub struct Prediction {
 }
 
 impl Problem {
-    /// Prepares records; the grid covers the largest input of any of them.
+    /// Prepares records of virgin joints.
     pub fn new(form: Form, records: &[Record]) -> Problem {
         let virgin = vec![Beginning::default(); records.len()];
         Problem::begun(form, records, &virgin)
@@ -123,20 +123,23 @@ impl Problem {
     /// Prepares records with their beginnings.
     pub fn begun(form: Form, records: &[Record], beginnings: &[Beginning]) -> Problem {
         let both = records.iter().zip(beginnings);
-        let prepared: Vec<Prepared> = both
-            .map(|(record, beginning)| {
-                let mut prepared = Prepared::new(record, form);
-                prepared.begin(form, beginning);
-                prepared
-            })
-            .collect();
-        let range = prepared
+        let prepared = both.map(|(record, beginning)| {
+            let mut prepared = Prepared::new(record, form);
+            prepared.begin(form, beginning);
+            prepared
+        });
+        Problem::of(form, prepared.collect())
+    }
+
+    /// Records on a grid that covers the largest input of any of them.
+    pub(super) fn of(form: Form, records: Vec<Prepared>) -> Problem {
+        let range = records
             .iter()
             .flat_map(|p| p.channels(form).0)
             .fold(0.0_f64, |a, &b| a.max(b.abs()));
         Problem {
             operators: Operators::grid(form, range),
-            records: prepared,
+            records,
         }
     }
 

@@ -19,8 +19,9 @@ pub(super) fn walk(
     let mut kinks = between.kinks.iter().peekable();
     let mut since_kink = usize::MAX;
     let mut from = (0.0, 0.0);
-    if !record.turned.is_empty() {
-        march.precede(record.time.first().copied().unwrap_or(0.0), &record.turned);
+    let turned = &record.beginning.turned;
+    if !turned.is_empty() {
+        march.precede(record.time.first().copied().unwrap_or(0.0), turned);
     }
     for (i, &driven) in input.iter().enumerate() {
         let to = (record.time[i], driven);
