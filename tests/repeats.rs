@@ -1,6 +1,6 @@
 //! Noise from repeated cycles: of the right size whatever its colour, and none of the response in it.
 
-use iwan::record::repeats::from_repeats;
+use iwan::record::repeats::{from_repeats, from_steady_changes};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -62,4 +62,47 @@ fn a_first_cycle_that_still_remembers_is_no_noise() {
         .collect();
     let told = from_repeats(&drive, &response).expect("cycles repeat");
     assert!((told.deviation / 0.01 - 1.0).abs() < 0.25, "{told:?}");
+}
+
+#[test]
+fn a_sine_that_grows_tells_its_noise_beside_a_response_that_is_not_linear() {
+    let mut random = ChaCha8Rng::seed_from_u64(14);
+    // 97.3 samples a cycle: no cycle is sampled like the one before.
+    let phase = |i: usize| i as f64 * std::f64::consts::TAU / 97.3;
+    let drive: Vec<f64> = (0..2140)
+        .map(|i| i as f64 / 2140.0 * phase(i).sin())
+        .collect();
+    for correlation in [0.0, 0.8] {
+        let (mut variance, mut found) = (0.0, 0.0);
+        let draws = 40;
+        for _ in 0..draws {
+            let noise = coloured(&mut random, drive.len(), correlation);
+            let both = drive.iter().zip(&noise);
+            let response: Vec<f64> = both
+                .map(|(d, n)| 50.0 * d + 40.0 * d * d + 60.0 * d * d * d + n)
+                .collect();
+            let told = from_steady_changes(&drive, &response).expect("cycles change steadily");
+            variance += told.deviation.powi(2) / f64::from(draws);
+            found += told.autoregression / f64::from(draws);
+        }
+        // Interpolated between samples, white noise is smoothed, by a tenth of its variance at most.
+        assert!((variance - 1.0).abs() < 0.1, "{correlation}: {variance}");
+        assert!((found - correlation).abs() < 0.1, "{correlation}: {found}");
+    }
+}
+
+#[test]
+fn cycles_too_few_for_a_change_to_be_smooth_tell_no_noise() {
+    let mut random = ChaCha8Rng::seed_from_u64(15);
+    let drive: Vec<f64> = (0..700)
+        .map(|i| f64::from(i) / 700.0 * (f64::from(i) * std::f64::consts::TAU / 100.0).sin())
+        .collect();
+    let noise = coloured(&mut random, drive.len(), 0.0);
+    let response: Vec<f64> = drive
+        .iter()
+        .zip(&noise)
+        .map(|(d, n)| 1e4 * d * d.abs().powf(0.7) + n)
+        .collect();
+    let told = from_steady_changes(&drive, &response);
+    assert!(told.is_none_or(|n| n.deviation < 1.5), "{told:?}");
 }

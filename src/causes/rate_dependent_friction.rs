@@ -62,8 +62,9 @@ pub(super) fn follow_rate(now: &Situation, memory_time: f64, memory: &mut [f64])
 /// Memory to start from, in periods of the fastest motion: a tenth of a radian.
 pub(super) const MEMORY: f64 = 0.016;
 
-/// The same, from which a memory follows what has been slid in many cycles, and no rate.
-pub(super) const LONGEST: f64 = 1.0;
+/// The same, from which a memory follows what has been slid, and no rate: from a turn to the highest rate it is a
+/// quarter of a period.
+pub(super) const LONGEST: f64 = 0.25;
 
 impl Effect for RateDependentFriction {
     fn name(&self) -> &'static str {

@@ -4,7 +4,7 @@ use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::Prospect;
-use super::trials::{ALARM, Effort, Trial, dispersion, trials};
+use super::trials::{ALARM, Effort, Trial, alarm, dispersion, trials};
 use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that a further cause must explain, or another set of what a set leaves: a
@@ -77,9 +77,10 @@ impl Grow<'_> {
     /// The set with the trial that lowers the squared error most, held-out samples included, of those with
     /// enough evidence that [`Prospect::holds`] lets pass.
     fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
+        let least = alarm(&self.bench.train);
         let mut promising = trials
             .iter()
-            .filter(|t| t.evidence >= ALARM && t.fit.misfit < enough);
+            .filter(|t| t.evidence >= least && t.fit.misfit < enough);
         let next = match self.effort {
             Effort::Quick => promising.next(),
             Effort::Full => promising
@@ -132,9 +133,10 @@ impl Grow<'_> {
 
     /// The best pair that begins with a first cause outside of the set, if it is better than the set.
     fn elsewhere(&self, best: &Fit, first: &[Trial]) -> Option<Fit> {
+        let evident = alarm(&self.bench.train);
         let mut beginnings: Vec<&Trial> = first
             .iter()
-            .filter(|t| t.plausible && t.evidence >= ALARM)
+            .filter(|t| t.plausible && t.evidence >= evident)
             .filter(|t| {
                 best.effects
                     .iter()

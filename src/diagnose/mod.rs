@@ -328,7 +328,7 @@ fn noise(bench: &Bench, unit: &str) -> NoiseFinding {
         unit: unit.to_string(),
         autoregression,
         method: if bench.noise_is_repeated() {
-            "second differences of repeated steady cycles, no model".to_string()
+            "differences of cycles that repeat or change steadily, no model".to_string()
         } else {
             "residual of the best model, because too few cycles repeat".to_string()
         },

@@ -9,7 +9,7 @@ use crate::record::Record;
 use crate::record::cycles::span;
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::outliers::{Neighbours, outliers, scattered};
-use crate::record::repeats::from_repeats;
+use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::split::held_out;
 
 /// Records ready for the search.
@@ -275,33 +275,38 @@ fn fitted(mut problem: Problem) -> (Problem, Fit) {
     (problem, fit)
 }
 
-/// Noise of the judged channel: from repeated cycles where a record has them, else lent by the
-/// other records, else from the fastest variations of the baseline's residual.
+/// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
+/// by the other records, else from the fastest variations of the baseline's residual.
 fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
     let predictions = first.predict(problem);
-    let own: Vec<Option<Noise>> = (0..problem.records.len())
+    let residuals: Vec<Vec<f64>> = (0..problem.records.len())
         .map(|k| {
+            let (_, judged) = problem.channels(k);
+            let both = judged.iter().zip(&predictions[k].judged);
+            both.map(|(y, p)| y - p).collect()
+        })
+        .collect();
+    let own: Vec<Option<Noise>> = residuals
+        .iter()
+        .enumerate()
+        .map(|(k, residual)| {
             let (input, judged) = problem.channels(k);
-            from_repeats(input, judged)
+            from_repeats(input, judged).or_else(|| from_steady_changes(input, residual))
         })
         .collect();
     let lent = own.iter().flatten().max_by_key(|n| n.samples).copied();
     own.iter()
+        .zip(&residuals)
         .enumerate()
-        .map(|(k, own)| {
+        .map(|(k, (own, residual))| {
             let (_, judged) = problem.channels(k);
-            let residual: Vec<f64> = judged
-                .iter()
-                .zip(&predictions[k].judged)
-                .map(|(y, p)| y - p)
-                .collect();
             // Noise leaves at least itself after any fit: an estimate above what the baseline
             // leaves holds a change of the response from cycle to cycle.
-            let most = 1.2 * rms(&residual);
+            let most = 1.2 * rms(residual);
             let own = own.filter(|n| n.deviation <= most);
             let lent = lent.filter(|n| n.deviation <= most);
             let floor = 1e-9 * rms(judged);
-            let mut noise = own.or(lent).unwrap_or_else(|| from_differences(&residual));
+            let mut noise = own.or(lent).unwrap_or_else(|| from_differences(residual));
             noise.deviation = noise.deviation.max(floor);
             noise
         })

@@ -13,6 +13,15 @@ use crate::joint::effect::Acting;
 /// over the catalogue's shapes, and the penalty of two values (ln n each) on top.
 pub const ALARM: f64 = 30.0;
 
+/// Part of the noise's variance that a cause must bring all along the record: less than a tenth of the noise in
+/// rms may as well be what grids and steps of a model are wrong by.
+const TENTH: f64 = 0.01;
+
+/// Evidence that a cause must have: [`ALARM`], and in long records a tenth of the noise.
+pub fn alarm(problem: &Problem) -> f64 {
+    ALARM.max(TENTH * problem.independent_rows())
+}
+
 /// One cause fitted jointly with everything else in the set.
 #[derive(Debug, Clone)]
 pub struct Trial {

@@ -9,6 +9,7 @@ use super::fit::{Fit, baseline};
 use super::operators::Form;
 use super::problem::{Prepared, Problem};
 use crate::record::cycles::{span, turning_points};
+use rayon::prelude::*;
 
 /// How a record begins, in units of the driving channel.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -67,7 +68,7 @@ const BACK: [f64; 3] = [0.25, 0.5, 0.75];
 pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
-    let both = problem.records.iter().zip(&predictions);
+    let both = problem.records.par_iter().zip(&predictions);
     let nearest: Vec<Beginning> = both
         .map(|(record, prediction)| beginning(form, record, &prediction.judged))
         .collect();
@@ -125,20 +126,25 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
         others.push(Beginning::at(input[0]));
     }
     let altogether = |beginning: &Beginning| fitted(beginning).1;
-    let tried = others.into_iter().map(|b| (altogether(&b), b));
-    let Some((_, best)) = tried.min_by(|(a, _), (b, _)| a.total_cmp(b)) else {
+    let tried = others.into_par_iter().map(|b| (altogether(&b), b));
+    let best = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
     };
     let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
     let (mut all, mut best) = sharpened(best, altogether);
     let (low, high) = low_high(input.iter().copied());
     while best.turned.len() < DEEPEST && !best.turned.is_empty() {
-        let older = [low, high].map(|turn| {
+        let of = |turn: f64| {
             let mut older = best.clone();
             older.turned.insert(0, turn);
             sharpened(older, altogether)
-        });
-        match older.into_iter().find(|older| wins(older.0, all)) {
+        };
+        let (before_low, before_high) = rayon::join(|| of(low), || of(high));
+        match [before_low, before_high]
+            .into_iter()
+            .find(|older| wins(older.0, all))
+        {
             Some(older) => (all, best) = older,
             None => break,
         }

@@ -3,7 +3,7 @@
 
 use super::fit::normal;
 use super::nonnegative::Normal;
-use super::problem::{Prediction, Prepared, Problem};
+use super::problem::{Prediction, Problem};
 use super::rows::each_row;
 use super::slopes::{Slope, slopes};
 use crate::joint::effect::Acting;
@@ -145,10 +145,6 @@ impl<'a> Linearised<'a> {
 /// Variance, over that of white noise, that a misfit of so large a share of the noise's variance
 /// adds when it lasts for the shortest of the stretches. Correlated neighbours count as fewer samples.
 pub fn lasting(problem: &Problem, share: f64) -> f64 {
-    let independent = |r: &Prepared| {
-        let rows = r.weight.iter().filter(|w| **w > 0.0).count() as f64;
-        rows * (1.0 - r.autoregression) / (1.0 + r.autoregression)
-    };
-    let samples: f64 = problem.records.iter().map(independent).sum();
+    let samples = problem.independent_rows();
     share * samples / STRETCHES[STRETCHES.len() - 1] as f64
 }

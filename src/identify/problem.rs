@@ -9,6 +9,7 @@ use super::walk::walk;
 use super::weighing::whiten;
 use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
+use crate::record::noise::independence;
 use crate::record::peaks::{Between, between};
 use rayon::prelude::*;
 
@@ -304,6 +305,16 @@ impl Problem {
             offsets.push(offset);
         }
         (total, offsets)
+    }
+
+    /// Samples with weight that count for a mean: correlated neighbours count as fewer,
+    /// `n (1 − a)/(1 + a)`.
+    pub fn independent_rows(&self) -> f64 {
+        let of = |r: &Prepared| {
+            let rows = r.weight.iter().filter(|w| **w > 0.0).count() as f64;
+            rows * independence(r.autoregression)
+        };
+        self.records.iter().map(of).sum()
     }
 
     /// Count of samples with weight.

@@ -81,10 +81,15 @@ pub fn cycles(channel: &[f64]) -> Vec<Cycle> {
 /// Same amplitude, mean and length, within [`SAME_LEVEL`] and two samples.
 pub fn alike(a: &Cycle, b: &Cycle) -> bool {
     let level = a.amplitude.max(b.amplitude);
-    let length = a.len().max(b.len()) as f64;
     (a.amplitude - b.amplitude).abs() <= SAME_LEVEL * level
         && (a.mean - b.mean).abs() <= SAME_LEVEL * level
-        && (a.len() as f64 - b.len() as f64).abs() <= (SAME_LEVEL * length).max(2.0)
+        && as_long(a, b)
+}
+
+/// Same length, within [`SAME_LEVEL`] and two samples.
+pub fn as_long(a: &Cycle, b: &Cycle) -> bool {
+    let length = a.len().max(b.len()) as f64;
+    (a.len() as f64 - b.len() as f64).abs() <= (SAME_LEVEL * length).max(2.0)
 }
 
 /// Highest less lowest value of a channel, in its unit.

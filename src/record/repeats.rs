@@ -1,6 +1,6 @@
 //! Noise of a channel where cycles of the drive repeat: no model is needed then.
 
-use super::cycles::{Cycle, alike, cycles, span};
+use super::cycles::{Cycle, alike, as_long, cycles, span};
 use super::noise::{Noise, moments};
 use super::peaks::between;
 
@@ -16,7 +16,7 @@ pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
     let differences = |triple: &[Cycle], settled: bool| {
         // Until the first cycle has reached its peak it may remember what was before.
         let skip = if settled { 0 } else { rise(drive, &triple[0]) };
-        differences(drive, response, &kinked, triple, skip)
+        differences((drive, response), &kinked, triple, skip)
     };
     // A fourth equal cycle in front makes sure that the memory of another level has closed.
     let settled: Vec<Vec<f64>> = found
@@ -33,7 +33,42 @@ pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
             .filter_map(|w| differences(w, false))
             .collect()
     };
-    let calm = calm(any);
+    noise_of(any)
+}
+
+/// Noise from cycles of equal length whose level changes steadily, as in a sine that grows: third and higher
+/// differences over the cycles, over which a change that is smooth from cycle to cycle cancels.
+///
+/// The lowest order is taken beyond which the noise falls no more. `None` where there is no such order, or
+/// where fewer than 150 samples tell it.
+pub fn from_steady_changes(drive: &[f64], response: &[f64]) -> Option<Noise> {
+    let found = cycles(drive);
+    let kinked = kinked(drive);
+    let settled = found.get(1..)?;
+    let of_order = |order: usize| {
+        let runs = settled.windows(order + 1);
+        let equal = runs.filter(|w| w.windows(2).all(|pair| as_long(&pair[0], &pair[1])));
+        let parts = equal.filter_map(|w| differences((drive, response), &kinked, w, 0));
+        noise_of(parts.collect())
+    };
+    let noise: Vec<Option<Noise>> = ORDERS.map(of_order).into();
+    noise.windows(2).find_map(|pair| match pair {
+        [Some(lower), Some(higher)] if higher.deviation > CONVERGED * lower.deviation => {
+            Some(*lower)
+        }
+        _ => None,
+    })
+}
+
+/// Orders of differences over cycles that change steadily.
+const ORDERS: [usize; 3] = [3, 4, 5];
+
+/// Part of the noise by a lower order that a higher one has to show: of noise all orders show the same.
+const CONVERGED: f64 = 0.9;
+
+/// The noise of calm parts of differences.
+fn noise_of(parts: Vec<Vec<f64>>) -> Option<Noise> {
+    let calm = calm(parts);
     let samples = count(&calm);
     if samples < ENOUGH {
         return None;
@@ -81,37 +116,44 @@ fn kinked(drive: &[f64]) -> Vec<bool> {
     near
 }
 
-/// Second differences of the response over three equal cycles, scaled to the noise's own variance;
-/// `None` where the drive does not repeat well enough.
+/// Differences of the response over a run of cycles, of an order one less than their count, scaled to the noise's
+/// own variance; `None` where those of the drive do not vanish well enough.
 fn differences(
-    drive: &[f64],
-    response: &[f64],
+    (drive, response): (&[f64], &[f64]),
     kinked: &[bool],
-    triple: &[Cycle],
+    run: &[Cycle],
     skip: usize,
 ) -> Option<Vec<f64>> {
-    let [first, middle, last] = triple else {
-        return None;
+    let weights = binomial(run.len());
+    let place = run.len() / 2;
+    let middle = &run[place];
+    let from_middle = |c: &Cycle| shift(drive, middle, c.start as f64 - middle.start as f64);
+    let others: Vec<(f64, f64)> = (0..run.len())
+        .filter(|&other| other != place)
+        .map(|other| (from_middle(&run[other]), weights[other]))
+        .collect();
+    let sampled = others.iter().all(|(shift, _)| shift.fract() == 0.0);
+    let difference = |channel: &[f64], i: usize| {
+        let own = weights[place];
+        let mut sum = (own * channel[i], own * own);
+        for (shift, weight) in &others {
+            let (value, squares) = interpolate(channel, i as f64 + shift)?;
+            sum = (sum.0 + weight * value, sum.1 + weight * weight * squares);
+        }
+        Some(sum)
     };
-    let back = -shift(drive, middle, first.start as f64 - middle.start as f64);
-    let forth = shift(drive, middle, last.start as f64 - middle.start as f64);
-    let sampled = back.fract() == 0.0 && forth.fract() == 0.0;
     let mut part = Vec::new();
     let (mut unequal, mut scattered) = (0.0, 0.0);
     for i in middle.start + skip..middle.end {
-        let at = i as f64;
         if kinked[i] && !sampled {
             continue;
         }
-        if let (Some((before, one)), Some((after, other)), Some((low, _)), Some((high, _))) = (
-            interpolate(response, at - back),
-            interpolate(response, at + forth),
-            interpolate(drive, at - back),
-            interpolate(drive, at + forth),
-        ) {
-            unequal += (low - 2.0 * drive[i] + high).powi(2);
-            scattered += (before - 2.0 * response[i] + after).powi(2);
-            part.push((before - 2.0 * response[i] + after) / (4.0 + one + other).sqrt());
+        if let (Some((apart, variance)), Some((driven, _))) =
+            (difference(response, i), difference(drive, i))
+        {
+            unequal += driven * driven;
+            scattered += apart * apart;
+            part.push(apart / variance.sqrt());
         }
     }
     let root = |sum: f64| (sum / part.len().max(1) as f64).sqrt();
@@ -122,7 +164,19 @@ fn differences(
     (repeats && part.len() > 8).then_some(part)
 }
 
-/// Keeps the triples whose variance is no further above the lower quartile's than noise scatters, and
+/// Weights of a difference over so many values: binomial coefficients of alternating sign.
+fn binomial(count: usize) -> Vec<f64> {
+    let mut weights = vec![1.0];
+    for _ in 1..count {
+        let shifted = weights.iter().skip(1).chain(&[0.0]);
+        let mut next = vec![1.0];
+        next.extend(shifted.zip(&weights).map(|(after, before)| after - before));
+        weights = next;
+    }
+    weights
+}
+
+/// Keeps the runs whose variance is no further above the lower quartile's than noise scatters, and
 /// at least those within twice of it: the others hold a change of the response itself, which no
 /// noise estimate may contain.
 ///
