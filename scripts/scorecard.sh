@@ -4,8 +4,9 @@
 #   scripts/scorecard.sh [ROUNDS] [SEED] [OUTPUT_DIR] [WORDS…]
 #
 # One round: every effect of the catalogue at 0.1, 0.3, 1 and 5 times the noise, every effect outside it
-# likewise, 25 clean records under each kind of noise, 20 pairs of effects, and the next experiment for
-# whatever ended ambiguous: some 240 cases, about half an hour on two idle cores. JOBS=2 sets how many run
+# likewise, 25 clean records under each kind of noise, 20 pairs of effects, 12 clean records
+# and 12 with an effect that are cut from a longer test or driven from another zero, and the next experiment
+# for whatever ended ambiguous: some 260 cases, about half an hour on two idle cores. JOBS=2 sets how many run
 # at a time. WORDS go to the laboratory: `--readme README.md --figures docs/figures` fills the README's
 # block and copies the drawings, `--only power,clean` leaves out the rest.
 #

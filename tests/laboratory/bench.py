@@ -8,6 +8,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
+from . import begun
 from .case import draw_case, write_case
 from .observed import hidden_of, observe
 from .pair import draw_pair
@@ -38,7 +39,11 @@ class Task:
         """(records, truth, style)."""
         if len(self.effects) == 1:
             name = self.effects[0]
-            return draw_case(self.seed, self.number, name, span=self.span, noise=self.noise)
+            drawn = draw_case(self.seed, self.number, name, span=self.span, noise=self.noise)
+            if self.measurement != "begun":
+                return drawn
+            records, truth, style = drawn
+            return *begun.begin(self.seed, self.number, records, truth), style
         return draw_pair(self.seed, self.number, self.effects, self.span[0], self.noise)
 
 

@@ -61,6 +61,16 @@ def _pairs(summary):
     return _table([*head, "both by name", "both in some set", "a name that is neither"], rows)
 
 
+BEGINNINGS = {"cut": "cut from a longer test", "zero": "zero of the drive off"}
+
+
+def _begun(summary):
+    marks = ("false_alarms", "right_alone", "in_stated_set", "wrong_name")
+    rows = [[BEGINNINGS[k], *(_of(v[m]) for m in marks)] for k, v in summary["begun"].items()]
+    head = ["records that begin otherwise", "false alarms of clean ones", "one effect: right alone"]
+    return _table([*head, "in the stated set", "wrong name"], rows)
+
+
 def _single_figures(summary):
     sure, apart = summary["separability"], summary["separability"]["where_separable"]
     seen = sure["where_separable_at_the_size_found"]
@@ -139,6 +149,8 @@ def block(summary, figures=None):
         lines += _foreign(summary)
     if summary["pairs"]["by_kinds"]:
         lines += _pairs(summary)
+    if summary["begun"]:
+        lines += _begun(summary)
     lines += _single_figures(summary)
     if figures and summary["by_strength"]:
         lines += _drawings(figures)

@@ -73,4 +73,5 @@ def hidden_of(truth):
         "noise": truth["noise"]["kind"],
         "coloured": truth["noise"]["lag_one_correlation"] > 0.0,
         "law": truth["joint"]["law"],
+        "beginning": truth.get("beginning", {}).get("way"),
     }

@@ -3,6 +3,9 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
+from .begun import LASTING
 from .bench import Bench, Task, run
 from .effects import CATALOGUE, FOREIGN
 from .follow_up import FollowUp, follow_up_said
@@ -11,6 +14,7 @@ from .noise import KINDS
 
 STRENGTHS = (0.1, 0.3, 1.0, 5.0)  # misfit after refit over noise
 CLEAN_PER_ROUND, PAIRS_PER_ROUND = 25, 20  # clean ones of every kind of noise
+BEGUN_PER_ROUND = 12  # with an effect, and as many clean
 PAIR_STRENGTH = 2.0  # of each of the two alone
 
 
@@ -54,7 +58,18 @@ def pairs(seed, turn, ratio=PAIR_STRENGTH, count=PAIRS_PER_ROUND, noise=None):
     ]
 
 
-PLANS = {"power": power, "foreign": foreign, "clean": clean, "pairs": pairs}
+def begun(seed, turn, count=BEGUN_PER_ROUND):
+    """Records of no virgin joint at zero: as many clean ones as with an effect that lasts."""
+    first = 70_000 + 2 * turn * count
+    names = np.random.default_rng([seed, first]).choice(LASTING, size=count)
+    return [
+        Task(seed, first + 2 * j + k, (str(name),), span, None, "begun")
+        for j in range(count)
+        for k, (name, span) in enumerate((("clean", (1.0, 1.0)), (names[j], (1.0, 5.0))))
+    ]
+
+
+PLANS = {"power": power, "foreign": foreign, "clean": clean, "pairs": pairs, "begun": begun}
 
 
 def measure(tasks, iwan, directory, jobs, more=()):

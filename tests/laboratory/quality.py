@@ -79,6 +79,22 @@ def false_alarms(cases):
     return {kind: one(group) for kind, group in kinds.items()}
 
 
+def begun(cases):
+    """Records that do not begin with a virgin joint at zero, by how they begin."""
+
+    def one(group):
+        planted = [c for c in group if c["known"]]
+        clean = [c for c in group if not c["known"]]
+        return {
+            "false_alarms": _over(clean, lambda c: c["false_alarm"]),
+            "right_alone": _over(planted, lambda c: c["alone"]),
+            "in_stated_set": _over(planted, lambda c: c["in_set"]),
+            "wrong_name": _over(planted, lambda c: c["wrong_name"]),
+        }
+
+    return {way: one(group) for way, group in _groups(cases, lambda c: c["beginning"]).items()}
+
+
 def unknowns(cases):
     """Effects outside the catalogue: what is said of them, all and each."""
 

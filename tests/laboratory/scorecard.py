@@ -9,7 +9,7 @@ from .markdown import block
 from .marks import read
 from .noise import KINDS
 
-MEASUREMENTS = ("power", "foreign", "clean", "pairs", "follow_up")
+MEASUREMENTS = ("power", "foreign", "clean", "pairs", "begun", "follow_up")
 MARKERS = ("<!-- scorecard -->", "<!-- /scorecard -->")
 
 
@@ -58,6 +58,7 @@ def summarise(directory, commit=None):
         "false_alarms": quality.false_alarms(clean),
         "unknown": quality.unknowns(foreign),
         "pairs": quality.pairs(two),
+        "begun": quality.begun(drawn.get("begun", [])),
         "calibration": quality.calibration(single),
         "separability": quality.separability(single),
         "parameters": quality.parameters(power),

@@ -20,6 +20,7 @@ from .noise import Noise, noise
 from .refit import Baseline
 from .scene import Scene
 from .score import Unreadable, judge, matrix, share, totals
+from .self_test_begun import Begun  # noqa: F401
 from .self_test_measured import Card, Kinds, Pairs, Quality, Resuming  # noqa: F401
 
 
