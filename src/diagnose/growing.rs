@@ -164,7 +164,7 @@ impl Grow<'_> {
 ///
 /// Half of it is enough for a second cause to be looked at: two that explain all may each beside the
 /// other bring what neither brings beside a first one that is neither of them.
-fn structure(problem: &Problem, fit: &Fit) -> f64 {
+pub(super) fn structure(problem: &Problem, fit: &Fit) -> f64 {
     let left = places::beyond_scatter(problem, fit);
     if left > STRUCTURE * problem.rows() as f64 {
         left

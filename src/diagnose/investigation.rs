@@ -1,10 +1,12 @@
 //! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint.
 
+use super::growing::structure;
 use super::prepare::{Bench, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, dispersion};
 use crate::identify::beginning::{Beginning, at_zero, beginnings, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit};
+use crate::joint::effect::Acting;
 use crate::record::Record;
 
 /// Times that turns and joint are fitted to each other in turn.
@@ -30,10 +32,23 @@ pub fn investigated(
     let bench = prepare(records, &virgin);
     let first = baseline(&bench.train);
     let others = beginnings(&bench.train, &first);
+    // Who starts a record at zero has a virgin joint as a rule, and who starts elsewhere has none.
+    let train = &bench.train;
+    let at_zero: Vec<bool> = (0..records.len())
+        .map(|k| at_zero(train.channels(k).0))
+        .collect();
+    let against_rule = |i: &Investigation| {
+        let mut both = i.beginnings().zip(&at_zero);
+        match i.is_virgin() {
+            true => at_zero.contains(&false),
+            false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
+        }
+    };
     let mut all = vec![searched(bench, first, timed, progress)];
+    let misled = against_rule(&all[0]) && all[0].leaves_structure();
     for other in others {
         let bench = prepare(records, &other);
-        if all[0].may_be_beaten_by(&bench) {
+        if misled || all[0].may_be_beaten_by(&bench) {
             progress(
                 "once more: a record may begin in the middle of a test, or its zero may be off",
             );
@@ -41,17 +56,10 @@ pub fn investigated(
             all.push(searched(bench, first, timed, progress).sharpened());
         }
     }
-    // Who starts a record at zero has a virgin joint as a rule.
-    let train = &all[0].bench.train;
-    let at_zero = |k: usize| at_zero(train.channels(k).0);
-    let as_a_rule = |i: &Investigation| {
-        let mut begun = i.beginnings().enumerate().filter(|(_, b)| !b.is_virgin());
-        !i.is_virgin() && begun.all(|(k, _)| at_zero(k))
-    };
     let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
     let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
     let unlikely = |i: &Investigation| {
-        let margin = if as_a_rule(i) { ALARM } else { 0.0 };
+        let margin = if against_rule(i) { ALARM } else { 0.0 };
         i.unlikeliness(scale) + margin
     };
     let order = all.iter().map(unlikely).enumerate();
@@ -89,18 +97,33 @@ impl Investigation {
         self.beginnings().all(Beginning::is_virgin)
     }
 
-    /// True where other beginnings leave less beside the causes that were found, or no more without any.
+    fn leaves_structure(&self) -> bool {
+        structure(&self.bench.train, &self.found.best).is_finite()
+    }
+
+    /// True where other beginnings leave less beside the causes that were found, or no more beside fewer, until
+    /// the first turns are known better on samples that do not hang on them.
     fn may_be_beaten_by(&self, other: &Bench) -> bool {
-        let train = &self.bench.train;
+        let weighed = |bench: &Bench| {
+            let mut bench = bench.clone();
+            bench.unsure.clone_from(&other.unsure);
+            bench.weigh(self.bench.noise.clone());
+            bench.train
+        };
+        let (train, other) = (weighed(&self.bench), weighed(other));
         let best = &self.found.best;
-        let (reached, _) = train.misfit(&best.predict(train));
+        let (reached, _) = train.misfit(&best.predict(&train));
         let margin = ALARM * (reached / train.rows().max(1) as f64).max(1.0);
-        let mut other = other.clone();
-        other.unsure.fill(0);
-        other.weigh(self.bench.noise.clone());
-        let plain = baseline(&other.train);
+        let plain = baseline(&other);
+        let beside = |effects: Vec<Acting>| refit(&other, &plain, effects).misfit;
+        let fewer = |drop: usize| {
+            let mut effects = best.effects.clone();
+            effects.remove(drop);
+            beside(effects) < reached + margin
+        };
         plain.misfit < reached + margin
-            || refit(&other.train, &plain, best.effects.clone()).misfit < reached - margin
+            || beside(best.effects.clone()) < reached - margin
+            || best.effects.len() > 1 && (0..best.effects.len()).any(fewer)
     }
 
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what

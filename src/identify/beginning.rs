@@ -63,8 +63,8 @@ const BACK: [f64; 3] = [0.25, 0.5, 0.75];
 ///
 /// Each record is asked alone, by the misfit of the best joint for it: another beginning has to take away half of
 /// what a virgin joint leaves until the load has turned twice; where the first reading is not zero, which a
-/// virgin joint's is as a rule, any part of it. There the reading itself as the zero is another alternative, however
-/// much it leaves beside causes not yet known. `first` is the baseline of virgin joints.
+/// virgin joint's is as a rule, any part of it. There the reading itself as the zero is another alternative to the
+/// turns before it, however much it leaves beside causes not yet known. `first` is the baseline of virgin joints.
 pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
@@ -121,12 +121,10 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     };
     let virgin = Beginning::default();
     let (virgin_early, virgin_all) = fitted(&virgin);
-    let mut others = histories(input);
-    if offset {
-        others.push(Beginning::at(input[0]));
-    }
     let altogether = |beginning: &Beginning| fitted(beginning).1;
-    let tried = others.into_par_iter().map(|b| (altogether(&b), b));
+    let tried = histories(input)
+        .into_par_iter()
+        .map(|b| (altogether(&b), b));
     let best = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
     let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
