@@ -144,10 +144,8 @@ fn differences(
     };
     let mut part = Vec::new();
     let (mut unequal, mut scattered) = (0.0, 0.0);
-    for i in middle.start + skip..middle.end {
-        if kinked[i] && !sampled {
-            continue;
-        }
+    let smooth = |i: &usize| sampled || !kinked[*i];
+    for i in (middle.start + skip..middle.end).filter(smooth) {
         if let (Some((apart, variance)), Some((driven, _))) =
             (difference(response, i), difference(drive, i))
         {
