@@ -85,8 +85,12 @@ fn a_sine_that_grows_tells_its_noise_beside_a_response_that_is_not_linear() {
             variance += told.deviation.powi(2) / f64::from(draws);
             found += told.autoregression / f64::from(draws);
         }
-        // Interpolated between samples, white noise is smoothed, by a tenth of its variance at most.
-        assert!((variance - 1.0).abs() < 0.1, "{correlation}: {variance}");
+        // What interpolation takes of white noise is made good; of correlated noise it takes less, and its
+        // variance is told too large by a sixth.
+        assert!(
+            (-0.05..0.2).contains(&(variance - 1.0)),
+            "{correlation}: {variance}"
+        );
         // Values between samples share those: neighbours of white noise are then correlated by a seventh.
         assert!((found - correlation).abs() < 0.15, "{correlation}: {found}");
     }
