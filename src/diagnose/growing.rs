@@ -128,7 +128,7 @@ impl Grow<'_> {
     fn leaves_another(&self, baseline: &Fit, best: &Fit) -> bool {
         let problem = &self.bench.train;
         let wrong_by = NEARLY * (baseline.misfit - problem.rows() as f64);
-        structure(problem, best).is_finite() && places::beyond_scatter(problem, best) > wrong_by
+        leaves_structure(problem, best) && places::beyond_scatter(problem, best) > wrong_by
     }
 
     /// The best pair that begins with a first cause outside of the set, if it is better than the set.
@@ -164,13 +164,16 @@ impl Grow<'_> {
 ///
 /// Half of it is enough for a second cause to be looked at: two that explain all may each beside the
 /// other bring what neither brings beside a first one that is neither of them.
-pub(super) fn structure(problem: &Problem, fit: &Fit) -> f64 {
-    let left = places::beyond_scatter(problem, fit);
-    if left > STRUCTURE * problem.rows() as f64 {
-        left
-    } else {
-        f64::INFINITY
+fn structure(problem: &Problem, fit: &Fit) -> f64 {
+    match leaves_structure(problem, fit) {
+        true => places::beyond_scatter(problem, fit),
+        false => f64::INFINITY,
     }
+}
+
+/// True where a set leaves misfit that noise alone does not.
+pub(super) fn leaves_structure(problem: &Problem, fit: &Fit) -> bool {
+    places::beyond_scatter(problem, fit) > STRUCTURE * problem.rows() as f64
 }
 
 /// Misfit that one cause of several has to take away beside the others.

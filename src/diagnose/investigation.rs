@@ -1,6 +1,6 @@
 //! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint.
 
-use super::growing::structure;
+use super::growing::leaves_structure;
 use super::prepare::{Bench, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, dispersion};
@@ -45,7 +45,7 @@ pub fn investigated(
         }
     };
     let mut all = vec![searched(bench, first, timed, progress)];
-    let misled = against_rule(&all[0]) && all[0].leaves_structure();
+    let misled = against_rule(&all[0]) && leaves_structure(&all[0].bench.train, &all[0].found.best);
     for other in others {
         let bench = prepare(records, &other);
         if misled || all[0].may_be_beaten_by(&bench) {
@@ -95,10 +95,6 @@ impl Investigation {
 
     fn is_virgin(&self) -> bool {
         self.beginnings().all(Beginning::is_virgin)
-    }
-
-    fn leaves_structure(&self) -> bool {
-        structure(&self.bench.train, &self.found.best).is_finite()
     }
 
     /// True where other beginnings leave less beside the causes that were found, or no more beside fewer, until

@@ -140,15 +140,8 @@ fn without_effects(problem: &Problem, fit: &Fit) -> Vec<Record> {
 
 /// rms of what the joint of any density leaves.
 fn left(problem: &Problem, fit: &Fit) -> f64 {
-    let predictions = fit.predict(problem);
     let (mut square, mut count) = (0.0, 0.0);
-    for (k, prediction) in predictions.iter().enumerate() {
-        let (_, measured) = problem.channels(k);
-        let residual: Vec<f64> = measured
-            .iter()
-            .zip(&prediction.judged)
-            .map(|(y, p)| y - p)
-            .collect();
+    for residual in fit.residuals(problem) {
         let n = residual.len() as f64;
         square += n * rms(&residual).powi(2);
         count += n;

@@ -23,7 +23,7 @@ pub fn align(problem: &mut Problem, first: &Fit) {
         return;
     };
     let frequency = &hum.parameters()[2];
-    let left_by_first = left(problem, first);
+    let left_by_first = first.residuals(problem);
     let residuals = in_scatters(&left_by_first);
     let longest = problem
         .records
@@ -112,7 +112,7 @@ fn anew(problem: &mut Problem, first: &Fit, begun: Acting) {
         let lines: Vec<(f64, f64)> = problem
             .records
             .iter()
-            .zip(left(problem, &fit))
+            .zip(fit.residuals(problem))
             .zip(judged_part(problem, &fit, &effects))
             .map(|((record, left), part)| {
                 let both = left.iter().zip(&part);
@@ -135,18 +135,7 @@ fn set_clocks(problem: &mut Problem, lines: &[(f64, f64)], frequency: f64) {
     }
 }
 
-/// What a fit leaves of each record.
-fn left(problem: &Problem, fit: &Fit) -> Vec<Vec<f64>> {
-    let predictions = fit.predict(problem);
-    let one = |(k, prediction): (usize, &crate::identify::Prediction)| {
-        let (_, judged) = problem.channels(k);
-        let both = judged.iter().zip(&prediction.judged);
-        both.map(|(y, p)| y - p).collect()
-    };
-    predictions.iter().enumerate().map(one).collect()
-}
-
-/// The same in units of its own scatter.
+/// What a fit leaves of each record, in units of its own scatter.
 fn in_scatters(left: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let one = |left: &Vec<f64>| {
         let scatter = super::prepare::rms(left).max(f64::MIN_POSITIVE);

@@ -197,19 +197,14 @@ impl Bench {
     /// Noise read off the residual of the given fit, for records in which nothing repeats: what
     /// the best model leaves is noise until a test of structure says otherwise.
     pub fn noise_from(&self, fit: &Fit) -> Vec<Noise> {
-        let predictions = fit.predict(&self.whole);
+        let residuals = fit.residuals(&self.whole);
         (0..self.whole.records.len())
             .map(|k| {
                 if self.noise[k].repeated {
                     return self.noise[k];
                 }
                 let (_, judged) = self.whole.channels(k);
-                let residual: Vec<f64> = judged
-                    .iter()
-                    .zip(&predictions[k].judged)
-                    .map(|(y, p)| y - p)
-                    .collect();
-                let noise = from_residual(&residual);
+                let noise = from_residual(&residuals[k]);
                 Noise {
                     deviation: noise.deviation.max(1e-9 * rms(judged)),
                     ..noise
@@ -278,14 +273,7 @@ fn fitted(mut problem: Problem) -> (Problem, Fit) {
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
 /// by the other records, else from the fastest variations of the baseline's residual.
 fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
-    let predictions = first.predict(problem);
-    let residuals: Vec<Vec<f64>> = (0..problem.records.len())
-        .map(|k| {
-            let (_, judged) = problem.channels(k);
-            let both = judged.iter().zip(&predictions[k].judged);
-            both.map(|(y, p)| y - p).collect()
-        })
-        .collect();
+    let residuals = first.residuals(problem);
     let own: Vec<Option<Noise>> = residuals
         .iter()
         .enumerate()

@@ -132,7 +132,7 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
     let (mut all, mut best) = sharpened(best, altogether);
     let (low, high) = low_high(input.iter().copied());
-    while best.turned.len() < DEEPEST && !best.turned.is_empty() {
+    while best.turned.len() < DEEPEST {
         let of = |turn: f64| {
             let mut older = best.clone();
             older.turned.insert(0, turn);

@@ -39,6 +39,16 @@ impl Fit {
         predictions
     }
 
+    /// Measured less predicted, of every sample of every record.
+    pub fn residuals(&self, problem: &Problem) -> Vec<Vec<f64>> {
+        let one = |(k, prediction): (usize, &Prediction)| {
+            let (_, judged) = problem.channels(k);
+            let both = judged.iter().zip(&prediction.judged);
+            both.map(|(y, p)| y - p).collect()
+        };
+        self.predict(problem).iter().enumerate().map(one).collect()
+    }
+
     /// Everything that acts in a march of this fit: its effects and the spring in series.
     pub fn acting(&self) -> Vec<Acting> {
         let spring = self.series.map(series::acting);

@@ -62,14 +62,9 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
         thresholds: Vec::new(),
     };
     let fit = baseline(&problem);
-    let predicted = fit.predict(&problem);
     let (input, judged) = problem.channels(0);
-    let residual: Vec<f64> = judged
-        .iter()
-        .zip(&predicted[0].judged)
-        .map(|(y, p)| y - p)
-        .collect();
-    let noise = from_repeats(input, judged).unwrap_or_else(|| from_differences(&residual));
+    let residual = &fit.residuals(&problem)[0];
+    let noise = from_repeats(input, judged).unwrap_or_else(|| from_differences(residual));
     let largest = judged.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let a = noise.autoregression;
     let innovation = noise.deviation.max(1e-9 * largest) * (1.0 - a * a).sqrt();
