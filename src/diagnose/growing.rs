@@ -9,7 +9,7 @@ use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that a further cause must explain, or another set of what a set leaves: a
 /// weaker one may as well be the named cause's law being only nearly right.
-const FURTHER_SHARE: f64 = 0.10;
+pub(super) const FURTHER_SHARE: f64 = 0.10;
 
 /// Part of that share which is enough of a set that leaves nothing beyond scatter.
 const COMPLETE: f64 = 0.3;

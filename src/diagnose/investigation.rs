@@ -1,6 +1,6 @@
 //! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint.
 
-use super::growing::leaves_structure;
+use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::{Bench, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, dispersion};
@@ -109,7 +109,10 @@ impl Investigation {
         let (train, other) = (weighed(&self.bench), weighed(other));
         let best = &self.found.best;
         let (reached, _) = train.misfit(&best.predict(&train));
-        let margin = ALARM * (reached / train.rows().max(1) as f64).max(1.0);
+        let rows = train.rows().max(1) as f64;
+        let margin = ALARM * (reached / rows).max(1.0);
+        // What the right beginning explains leaves little; any freedom takes a little of what no cause explains.
+        let taken = margin.max(FURTHER_SHARE * (reached - rows));
         let plain = baseline(&other);
         let beside = |effects: Vec<Acting>| refit(&other, &plain, effects).misfit;
         let fewer = |drop: usize| {
@@ -118,7 +121,7 @@ impl Investigation {
             beside(effects) < reached + margin
         };
         plain.misfit < reached + margin
-            || beside(best.effects.clone()) < reached - margin
+            || beside(best.effects.clone()) < reached - taken
             || best.effects.len() > 1 && (0..best.effects.len()).any(fewer)
     }
 

@@ -33,6 +33,9 @@ const BLOCKS: usize = 6;
 /// tells apart hangs on the law of the cause being true there.
 const KINDS: usize = 3;
 
+/// Worth of half a program below which the other half will not settle what is asked.
+const HOPELESS: f64 = 0.05;
+
 /// Multiple of what is needed at which a question is surely settled: the look ahead is of first
 /// order, and noise takes its share.
 const SURE: f64 = 4.0;
@@ -183,31 +186,43 @@ impl<'a> Design<'a> {
     /// Adds the block that helps most until every question is settled or the time is used up.
     fn grown(&self, rig: Rig) -> Option<Chosen> {
         let before = self.standings(&self.before, self.rows);
-        let menu = rig.menu();
+        let mut menu = rig.menu();
         let mut blocks: Vec<Block> = Vec::new();
         let mut best = before.clone();
         while blocks.len() < BLOCKS {
             // The way back to zero at the end takes a cycle of the last block.
             let lasts = |b: &Block| b.seconds(&rig) + 1.0 / (b.rate * rig.rate);
             let used: f64 = blocks.iter().map(|b| b.seconds(&rig)).sum();
-            let next = menu
-                .par_iter()
+            let fitting: Vec<Block> = menu
+                .iter()
                 .filter(|block| used + lasts(block) <= rig.longest())
                 .filter(|block| blocks.len() >= KINDS || !blocks.contains(block))
-                .map(|block| {
-                    let mut longer = blocks.clone();
-                    longer.push(*block);
-                    let standings = self.with(&rig, &longer);
-                    (worth(&standings), longer, standings)
-                })
-                .max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((gained, longer, standings)) = next else {
+                .copied()
+                .collect();
+            let tried = fitting.par_iter().map(|block| {
+                let mut longer = blocks.clone();
+                longer.push(*block);
+                let standings = self.with(&rig, &longer);
+                (worth(&standings), *block, standings)
+            });
+            let mut tried: Vec<(f64, Block, Vec<Standing>)> = tried.collect();
+            tried.sort_by(|a, b| b.0.total_cmp(&a.0));
+            if blocks.len() + 1 == KINDS {
+                // What helps least now will not help most later: the questions stay the same.
+                let better = tried.iter().take(tried.len().div_ceil(2));
+                menu = better.map(|t| t.1).chain(blocks.iter().copied()).collect();
+            }
+            let Some((gained, block, standings)) = tried.into_iter().next() else {
                 break;
             };
             if gained <= worth(&best) {
                 break;
             }
-            (blocks, best) = (longer, standings);
+            blocks.push(block);
+            best = standings;
+            if blocks.len() == KINDS && worth(&best) < HOPELESS {
+                break;
+            }
             if blocks.len() >= KINDS && best.iter().all(|s| s.ratio() >= SURE) {
                 break;
             }
