@@ -97,17 +97,22 @@ fn a_sine_that_grows_tells_its_noise_beside_a_response_that_is_not_linear() {
 }
 
 #[test]
-fn cycles_too_few_for_a_change_to_be_smooth_tell_no_noise() {
+fn what_is_not_smooth_over_the_cycles_is_not_told_as_noise() {
     let mut random = ChaCha8Rng::seed_from_u64(15);
-    let drive: Vec<f64> = (0..700)
-        .map(|i| f64::from(i) / 700.0 * (f64::from(i) * std::f64::consts::TAU / 100.0).sin())
+    // Ten cycles, each a step larger: of the drive every third difference is nothing.
+    let drive: Vec<f64> = (0..1000)
+        .map(|i| f64::from(1 + i / 100) * (f64::from(i) * std::f64::consts::TAU / 100.0).sin())
         .collect();
     let noise = coloured(&mut random, drive.len(), 0.0);
-    let response: Vec<f64> = drive
-        .iter()
-        .zip(&noise)
-        .map(|(d, n)| 1e4 * d * d.abs().powf(0.7) + n)
-        .collect();
-    let told = from_steady_changes(&drive, &response);
-    assert!(told.is_none_or(|n| n.deviation < 1.5), "{told:?}");
+    let response = |exponent: f64| -> Vec<f64> {
+        let both = drive.iter().zip(&noise);
+        both.map(|(d, n)| 100.0 * d * d.abs().powf(exponent) + n)
+            .collect()
+    };
+    let told = |exponent: f64| from_steady_changes(&drive, &response(exponent));
+    let square = told(1.0).expect("a square has no third differences either");
+    assert!((0.8..1.2).contains(&square.deviation), "{square:?}");
+    // Third differences of this power are many times the noise, and fourth ones still twice.
+    let steeper = told(1.8);
+    assert!(steeper.is_none_or(|n| n.deviation < 1.5), "{steeper:?}");
 }
