@@ -33,6 +33,8 @@ use prepare::Bench;
 use search::Found;
 use structure::structure;
 
+use rayon::prelude::*;
+
 use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, Prediction, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
@@ -123,11 +125,13 @@ fn assemble(
     bench: &Bench,
     found: Found,
 ) -> Result<(Findings, Found, Fit), JointError> {
-    let found = sober(bench, found).smoothed(bench);
+    let (found, whole_base) = rayon::join(
+        || sober(bench, found).smoothed(bench),
+        || smoothed(&bench.whole, &baseline(&bench.whole)),
+    );
     let before = found.baseline.predict(&bench.train);
     let after = found.best.predict(&bench.train);
     let gain = gain::ratio(bench, &before, &after);
-    let whole_base = smoothed(&bench.whole, &baseline(&bench.whole));
     let whole = match found.best.effects.is_empty() {
         true => whole_base.clone(),
         false => {
@@ -291,7 +295,7 @@ fn candidates(
     let probabilities = probability::probabilities(found, left);
     let mut all: Vec<Candidate> = found
         .trials
-        .iter()
+        .par_iter()
         .zip(probabilities)
         .map(|(trial, probability)| Candidate {
             name: trial.cause.name().to_string(),

@@ -29,9 +29,13 @@ pub struct Found {
 impl Found {
     /// With joints that follow the noise no more than their data ask for.
     pub fn smoothed(self, bench: &Bench) -> Found {
+        let (baseline, best) = rayon::join(
+            || smoothed(&bench.train, &self.baseline),
+            || smoothed(&bench.train, &self.best),
+        );
         Found {
-            baseline: smoothed(&bench.train, &self.baseline),
-            best: smoothed(&bench.train, &self.best),
+            baseline,
+            best,
             ..self
         }
     }

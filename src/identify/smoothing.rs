@@ -1,6 +1,8 @@
 //! A fit's dictionary made as smooth as its data allow: non-negative least squares follow the noise with
 //! every coefficient they have, and what they follow too closely they predict the worse.
 
+use rayon::prelude::*;
+
 use super::fit::{Fit, normal};
 use super::nonnegative::Normal;
 use super::problem::Problem;
@@ -40,7 +42,7 @@ pub fn smoothed(problem: &Problem, fit: &Fit) -> Fit {
         (risk(plain.misfit(&solution), freedom), freedom, solution)
     };
     let as_it_is = tried(0.0).0;
-    let smooth = WEIGHTS.map(tried);
+    let smooth: Vec<_> = WEIGHTS.into_par_iter().map(tried).collect();
     let least = smooth.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     let Some((_, freedom, solution)) = least else {
         return fit.clone();
