@@ -90,8 +90,9 @@ pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Ve
 }
 
 impl Place {
+    /// Causes in place of the named one; not those whose refit was not worth beginning.
     fn others(&self) -> impl Iterator<Item = &Trial> {
-        let other = |t: &&Trial| t.plausible && t.cause.name() != self.named;
+        let other = |t: &&Trial| t.plausible && t.cause.name() != self.named && t.own().is_some();
         self.trials.iter().filter(other)
     }
 

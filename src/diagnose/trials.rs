@@ -36,6 +36,14 @@ pub struct Trial {
     pub plausible: bool,
 }
 
+impl Trial {
+    /// The cause as it was fitted; `None` where its refit was not worth beginning.
+    pub fn own(&self) -> Option<&Acting> {
+        let mut effects = self.fit.effects.iter();
+        effects.find(|a| a.effect.name() == self.cause.name())
+    }
+}
+
 impl std::fmt::Debug for dyn Cause {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
