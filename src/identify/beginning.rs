@@ -186,7 +186,8 @@ pub fn early(input: &[f64]) -> usize {
         .map_or(0, |second| second + 1)
 }
 
-/// Readings between which the load may have gone before, and where it turned last.
+/// Readings between which the load may have gone before, and where it turned last: between the first turns of
+/// the record, its whole range, or half way, as in a test that grows.
 fn histories(input: &[f64]) -> Vec<Beginning> {
     let start = input[0];
     let turns = turning_points(input, BAND);
@@ -194,7 +195,8 @@ fn histories(input: &[f64]) -> Vec<Beginning> {
     let first = low_high(turns[1..=2].iter().map(|&t| input[t]));
     let whole = low_high(input.iter().copied());
     let mut all = Vec::new();
-    for (low, high) in [first, whole] {
+    let between = (0.5 * (first.0 + whole.0), 0.5 * (first.1 + whole.1));
+    for (low, high) in [first, between, whole] {
         for (before, last) in [(high, low), (low, high)] {
             all.push(vec![before, last]);
             all.extend(BACK.map(|share| vec![before, start + share * (last - start)]));
