@@ -123,13 +123,16 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
         .map(|square| square.min(LOUDEST))
         .sum();
     let (mean, scatter) = quiet(&bins, variance);
+    let stands_out = |b: &Bin| (b.sum * b.sum / b.count / variance - 1.0).max(0.0);
+    // Bins that noise left quieter than its mean take nothing from those that stand out.
+    let all = bins.iter().map(stands_out).sum::<f64>().max(1.0);
     let mut places: Vec<Place> = bins
         .iter()
         .map(|b| Place {
             record: b.record,
             from: b.from,
             to: b.to,
-            share: (b.sum * b.sum / b.count / variance - 1.0) / excess.max(1.0),
+            share: stands_out(b) / all,
         })
         .collect();
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
