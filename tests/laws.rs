@@ -120,6 +120,7 @@ fn scale() -> Scale {
         jumps: vec![],
         path: answers.windows(2).map(|two| rate(two) * STEP).sum(),
         period: 2.0 * LEG as f64 * STEP,
+        slowest: 2.0 * LEG as f64 * STEP,
         step: STEP,
     }
 }

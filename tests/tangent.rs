@@ -139,6 +139,7 @@ fn effects() -> Vec<Acting> {
         jumps: vec![],
         path: 1e-3,
         period: 0.02,
+        slowest: 0.02,
         step: STEP,
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);

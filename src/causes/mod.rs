@@ -75,6 +75,8 @@ pub struct Scale {
     pub jumps: Vec<f64>,
     /// Shortest period of the drive \[s\].
     pub period: f64,
+    /// Period of the slowest record, `2π rms(U)/rms(U̇)` of its motion \[s\].
+    pub slowest: f64,
     /// Time between samples \[s\].
     pub step: f64,
 }

@@ -62,8 +62,8 @@ pub(super) fn follow_rate(now: &Situation, memory_time: f64, memory: &mut [f64])
 /// Memory to start from, in periods of the fastest motion: a tenth of a radian.
 pub(super) const MEMORY: f64 = 0.016;
 
-/// The same, from which a memory follows what has been slid, and no rate: from a turn to the highest rate it is a
-/// quarter of a period.
+/// Periods of the slowest record from which a memory follows what has been slid, and no rate: from a turn to the
+/// highest rate it is a quarter. In records of faster motions it may follow as slowly as it will.
 pub(super) const LONGEST: f64 = 0.25;
 
 impl Effect for RateDependentFriction {
@@ -114,7 +114,7 @@ impl Cause for RateDependentFriction {
         true
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[2] < LONGEST * scale.period
+        values[2] < LONGEST * scale.slowest
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [1e-3, 0.03, 0.5]
@@ -127,6 +127,27 @@ impl Cause for RateDependentFriction {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_slowest_record_tells_whether_a_memory_follows_a_rate() {
+        let fastest = 0.05;
+        let scale = |slowest| Scale {
+            force: 1.0,
+            displacement: 1.0,
+            velocity: 1.0,
+            stiffness: 1.0,
+            dissipation: 1.0,
+            path: 1.0,
+            lengths: vec![10.0],
+            jumps: Vec::new(),
+            period: fastest,
+            slowest,
+            step: 1e-3,
+        };
+        let values = [0.01, 1e-3, 0.5 * fastest];
+        assert!(!RateDependentFriction.plausible(&values, &scale(fastest)));
+        assert!(RateDependentFriction.plausible(&values, &scale(10.0 * fastest)));
+    }
 
     #[test]
     fn friction_grows_with_the_logarithm_of_a_rate_held() {

@@ -107,7 +107,7 @@ impl Cause for VelocityWeakening {
         true
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[2] < LONGEST * scale.period
+        values[2] < LONGEST * scale.slowest
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [0.03, 0.15, 0.6]

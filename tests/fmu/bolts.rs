@@ -15,6 +15,7 @@ fn causes() -> Vec<(&'static str, String)> {
         jumps: vec![],
         path: 1e-3,
         period: 0.02,
+        slowest: 0.02,
         step: 1e-3,
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);
