@@ -45,7 +45,10 @@ pub fn investigated(
         }
     };
     let mut all = vec![searched(bench, first, timed, progress)];
-    let misled = against_rule(&all[0]) && leaves_structure(&all[0].bench.train, &all[0].found.best);
+    // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
+    let Found { best, .. } = &all[0].found;
+    let doubtful = !best.effects.is_empty() || leaves_structure(&all[0].bench.train, best);
+    let misled = against_rule(&all[0]) && doubtful;
     for other in others {
         let bench = prepare(records, &other);
         if misled || all[0].may_be_beaten_by(&bench) {

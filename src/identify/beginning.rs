@@ -122,31 +122,36 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     let virgin = Beginning::default();
     let (virgin_early, virgin_all) = fitted(&virgin);
     let altogether = |beginning: &Beginning| fitted(beginning).1;
-    let tried = histories(input)
-        .into_par_iter()
-        .map(|b| (altogether(&b), b));
-    let best = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
-    let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
+    let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
+    let (low, high) = low_high(input.iter().copied());
+    let deepened = |(mut all, mut best): (f64, Beginning)| {
+        while best.turned.len() < DEEPEST {
+            let of = |turn: f64| {
+                let mut older = best.clone();
+                older.turned.insert(0, turn);
+                sharpened(older, altogether)
+            };
+            let (before_low, before_high) = rayon::join(|| of(low), || of(high));
+            let both = [before_low, before_high];
+            match both.into_iter().find(|older| wins(older.0, all)) {
+                Some(older) => (all, best) = older,
+                None => break,
+            }
+        }
+        (all, best)
+    };
+    // Of each range by itself: what is nearest with two turns may stay behind with older ones.
+    let nearest = |tried: &Vec<Beginning>| {
+        let all = tried.par_iter().map(|b| (altogether(b), b));
+        let (_, best) = all.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(deepened(sharpened(best.clone(), altogether)))
+    };
+    let tried = histories(input);
+    let ranges = tried.par_iter().filter_map(nearest);
+    let best = ranges.min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let Some((all, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
     };
-    let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
-    let (mut all, mut best) = sharpened(best, altogether);
-    let (low, high) = low_high(input.iter().copied());
-    while best.turned.len() < DEEPEST {
-        let of = |turn: f64| {
-            let mut older = best.clone();
-            older.turned.insert(0, turn);
-            sharpened(older, altogether)
-        };
-        let (before_low, before_high) = rayon::join(|| of(low), || of(high));
-        match [before_low, before_high]
-            .into_iter()
-            .find(|older| wins(older.0, all))
-        {
-            Some(older) => (all, best) = older,
-            None => break,
-        }
-    }
     let nearer = offset || fitted(&best).0 < HALF * virgin_early;
     match nearer && wins(all, virgin_all) {
         true => best,
@@ -188,23 +193,23 @@ pub fn early(input: &[f64]) -> usize {
 
 /// Readings between which the load may have gone before, and where it turned last: between the first turns of
 /// the record, its whole range, or half way, as in a test that grows.
-fn histories(input: &[f64]) -> Vec<Beginning> {
+fn histories(input: &[f64]) -> [Vec<Beginning>; 3] {
     let start = input[0];
     let turns = turning_points(input, BAND);
     // Without the first sample, which counts as a turn and is none.
     let first = low_high(turns[1..=2].iter().map(|&t| input[t]));
     let whole = low_high(input.iter().copied());
-    let mut all = Vec::new();
     let between = (0.5 * (first.0 + whole.0), 0.5 * (first.1 + whole.1));
-    for (low, high) in [first, between, whole] {
-        for (before, last) in [(high, low), (low, high)] {
-            all.push(vec![before, last]);
-            all.extend(BACK.map(|share| vec![before, start + share * (last - start)]));
-        }
-    }
-    all.into_iter()
-        .map(|turned| Beginning { zero: 0.0, turned })
-        .collect()
+    [first, between, whole].map(|(low, high)| {
+        let both = [(high, low), (low, high)].into_iter();
+        let turned = both.flat_map(|(before, last)| {
+            let back = BACK.map(|share| vec![before, start + share * (last - start)]);
+            std::iter::once(vec![before, last]).chain(back)
+        });
+        turned
+            .map(|turned| Beginning { zero: 0.0, turned })
+            .collect()
+    })
 }
 
 fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
