@@ -41,7 +41,7 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
     }
     let reach = (GAIN * mass / SHARE * (moved / pushed).sqrt()).sqrt();
     let reach = reach.min(0.125 * (time[count - 1] - time[0]));
-    let half = (0.5 * reach * frequency(truth)).min(1.0);
+    let half = (0.5 * reach * truth.frequency()).min(1.0);
     let kept = |half: f64| square(sin(half) / half);
     let made_good = if half > 0.0 {
         3.0 / (4.0 * kept(half) - kept(2.0 * half))
@@ -72,19 +72,6 @@ fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
 /// Sum of squares of the moves from sample to sample.
 fn moves(channel: &[f64]) -> f64 {
     channel.windows(2).map(|two| square(two[1] - two[0])).sum()
-}
-
-/// The motion's own frequency \[rad/s\]: ratio of its rate to its size, in the mean of squares.
-fn frequency(truth: &Trajectory) -> f64 {
-    let count = truth.displacement.len() as f64;
-    let mean = truth.displacement.iter().sum::<f64>() / count;
-    let (mut size, mut rate) = (0.0, 0.0);
-    for (time, u) in truth.time.windows(2).zip(truth.displacement.windows(2)) {
-        let length = time[1] - time[0];
-        size += square(u[0] - mean) * length;
-        rate += square(u[1] - u[0]) / length;
-    }
-    (rate / size).sqrt()
 }
 
 impl Effect for FixtureInertia {

@@ -54,7 +54,7 @@ pub struct Page {
 }
 
 /// Sizes of a record that tell where a search starts. SI units.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scale {
     /// Largest magnitude of the force \[N\].
     pub force: f64,

@@ -132,17 +132,9 @@ mod tests {
     fn the_slowest_record_tells_whether_a_memory_follows_a_rate() {
         let fastest = 0.05;
         let scale = |slowest| Scale {
-            force: 1.0,
-            displacement: 1.0,
-            velocity: 1.0,
-            stiffness: 1.0,
-            dissipation: 1.0,
-            path: 1.0,
-            lengths: vec![10.0],
-            jumps: Vec::new(),
             period: fastest,
             slowest,
-            step: 1e-3,
+            ..Scale::default()
         };
         let values = [0.01, 1e-3, 0.5 * fastest];
         assert!(!RateDependentFriction.plausible(&values, &scale(fastest)));

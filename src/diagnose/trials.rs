@@ -39,8 +39,7 @@ pub struct Trial {
 impl Trial {
     /// The cause as it was fitted; `None` where its refit was not worth beginning.
     pub fn own(&self) -> Option<&Acting> {
-        let mut effects = self.fit.effects.iter();
-        effects.find(|a| a.effect.name() == self.cause.name())
+        self.fit.effect(self.cause.name())
     }
 }
 
@@ -124,7 +123,7 @@ pub fn trials(
             false => fit,
         };
         let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
-        let own = fit.effects.iter().find(|a| a.effect.name() == cause.name());
+        let own = fit.effect(cause.name());
         let plausible = own.is_none_or(|a| cause.plausible(&a.values, scale));
         Trial {
             cause: *cause,

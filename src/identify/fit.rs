@@ -49,6 +49,11 @@ impl Fit {
         self.predict(problem).iter().enumerate().map(one).collect()
     }
 
+    /// The effect of a name as it was fitted; `None` where the fit is without.
+    pub fn effect(&self, name: &str) -> Option<&Acting> {
+        self.effects.iter().find(|a| a.effect.name() == name)
+    }
+
     /// Everything that acts in a march of this fit: its effects and the spring in series.
     pub fn acting(&self) -> Vec<Acting> {
         let spring = self.series.map(series::acting);

@@ -8,6 +8,7 @@
 //! ```
 //! with the break-free forces of the network multiplied by the slip limit.
 
+use super::elementary::square;
 use super::parameters::Parameter;
 
 /// Where an effect acts.
@@ -98,6 +99,22 @@ pub struct Trajectory {
     pub begins: f64,
 }
 
+impl Trajectory {
+    /// Frequency of the sine that moves as far and as fast as the displacement does, `rms(U̇)/rms(U)` about its
+    /// mean \[rad/s\]; no number of a displacement that rests.
+    pub fn frequency(&self) -> f64 {
+        let count = self.displacement.len() as f64;
+        let mean = self.displacement.iter().sum::<f64>() / count;
+        let (mut size, mut rate) = (0.0, 0.0);
+        for (time, u) in self.time.windows(2).zip(self.displacement.windows(2)) {
+            let length = time[1] - time[0];
+            size += square(u[0] - mean) * length;
+            rate += square(u[1] - u[0]) / length;
+        }
+        (rate / size).sqrt()
+    }
+}
+
 /// One effect: a law at one place. Values of its parameters come as a slice in the order of
 /// [`Effect::parameters`]; its history lives in a slice of [`Effect::memory`] numbers that the
 /// simulation owns, so that saving and restoring a simulation needs nothing from the effect.
@@ -185,5 +202,29 @@ impl std::fmt::Debug for Acting {
 impl PartialEq for Acting {
     fn eq(&self, other: &Self) -> bool {
         self.effect.name() == other.effect.name() && self.values == other.values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_frequency_of_a_motion_is_that_of_its_sine_wherever_it_is_about() {
+        let expected = 4.8;
+        let time: Vec<f64> = (0..=3000)
+            .map(|i| 0.01 * std::f64::consts::TAU / expected * f64::from(i))
+            .collect();
+        let motion = Trajectory {
+            displacement: time
+                .iter()
+                .map(|t| 3.0 + 2.0 * (expected * t).sin())
+                .collect(),
+            time,
+            ..Trajectory::default()
+        };
+        let found = motion.frequency();
+        // A chord is shorter than its arc by x²/24, 1.6e-4.
+        assert!((found / expected - 1.0).abs() < 2e-4, "{found}");
     }
 }

@@ -123,7 +123,7 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> (Found, Vec<Dummy>
         let mut shown: Vec<String> = Vec::new();
         let mut excluded: Vec<String> = Vec::new();
         for (cause, fit) in members.iter().filter(|m| m.0.kind() == Kind::Measurement) {
-            let acting = fit.effects.iter().find(|a| a.effect.name() == cause.name());
+            let acting = fit.effect(cause.name());
             let Some(acting) = acting else { continue };
             let ruling = examine(&problem, &plain, *cause, acting);
             match ruling.ruling {

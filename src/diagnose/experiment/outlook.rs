@@ -10,6 +10,7 @@ use crate::causes::{CATALOGUE, Cause, find};
 use crate::diagnose::findings::{Findings, Verdict};
 use crate::diagnose::prepare::Bench;
 use crate::diagnose::search::Found;
+use crate::diagnose::trials::Trial;
 use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
 
@@ -83,7 +84,7 @@ fn fitted(findings: &Findings, found: &Found, whole: &Fit) -> Vec<(&'static dyn 
             continue;
         }
         let trial = found.trials.iter().find(|t| t.cause.name() == rival);
-        let acting = trial.and_then(|t| t.fit.effects.iter().find(|a| a.effect.name() == rival));
+        let acting = trial.and_then(Trial::own);
         known.extend(find(rival).zip(acting.cloned()));
     }
     known
