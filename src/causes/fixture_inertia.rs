@@ -1,6 +1,5 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
-use super::sensor_delay::Course;
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{sin, square};
@@ -21,57 +20,69 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "moving mass between the load cell and the joint",
 }];
 
-/// Share of the joint's own stiffness that the mass may add at any frequency. Motion beyond the
-/// resonance of mass and joint is noise: were it resolved, taking `m Ü` off a measured force would
-/// raise that noise each time. A joint followed by a few dozen operators moves in as many straight
-/// pieces, and the bends between them are noise to a second difference, too.
-const SHARE: f64 = 0.15;
+/// Noise of the acceleration over the acceleration itself, in rms, above which differences reach further.
+const NOISY: f64 = 0.1;
 
-/// Largest factor of a difference of the fourth order, over the square of its reach.
-const GAIN: f64 = 17.0 / 3.0;
+/// Share of a record that a difference reaches over at most, to either side.
+const REACH: f64 = 0.125;
 
-/// Ü \[m/s²\] by differences of the fourth order over a reach of `√(GAIN m/(SHARE K))`, at least a sample,
-/// and over twice as much, with the loss that they have at the motion's own frequency made good.
-fn acceleration(mass: f64, truth: &Trajectory) -> Vec<f64> {
+/// Ü \[m/s²\] by differences over at least a sample to either side, and so far that a measured displacement's noise
+/// is small beside it, with the loss that they have at the motion's own frequency made good.
+fn acceleration(truth: &Trajectory) -> Vec<f64> {
     let (time, displacement) = (&truth.time, &truth.displacement);
     let count = time.len();
-    let (moved, pushed) = (moves(displacement), moves(&truth.force));
-    if count < 3 || moved == 0.0 {
+    let frequency = truth.frequency();
+    if count < 3 || !frequency.is_normal() {
         return vec![0.0; count];
     }
-    let reach = (GAIN * mass / SHARE * (moved / pushed).sqrt()).sqrt();
-    let reach = reach.min(0.125 * (time[count - 1] - time[0]));
-    let half = (0.5 * reach * truth.frequency()).min(1.0);
-    let kept = |half: f64| square(sin(half) / half);
-    let made_good = if half > 0.0 {
-        3.0 / (4.0 * kept(half) - kept(2.0 * half))
-    } else {
-        1.0
-    };
-    let course = Course::of(truth);
-    let mut places = [Passed::default(); 5];
+    let mean = displacement.iter().sum::<f64>() / count as f64;
+    let size = displacement.iter().map(|u| square(u - mean)).sum::<f64>() / count as f64;
+    let wanted = NOISY * square(frequency) * size.sqrt();
+    // A second difference has six times the variance of its samples.
+    let reach = (6.0_f64.sqrt() * noise(displacement) / wanted).sqrt();
+    let reach = reach.min(REACH * (time[count - 1] - time[0]));
+    let course = truth.course();
+    let mut places = [Passed::default(); 2];
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
             let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
             // Constant near either end.
             let middle = time[sample]
-                .max(time[0] + 2.0 * reach)
-                .min(time[count - 1] - 2.0 * reach);
-            let mut at =
-                |shift: f64, place: usize| course.at(middle + shift * reach, &mut places[place]);
-            let [earliest, earlier, now, later, latest] =
-                [at(-2.0, 0), at(-1.0, 1), at(0.0, 2), at(1.0, 3), at(2.0, 4)];
-            let near = (later - 2.0 * now + earlier) / square(reach);
-            let far = (latest - 2.0 * now + earliest) / square(2.0 * reach);
-            made_good * (4.0 * near - far) / 3.0
+                .max(time[0] + reach)
+                .min(time[count - 1] - reach);
+            let earlier = course.at(middle - reach, &mut places[0]);
+            let later = course.at(middle + reach, &mut places[1]);
+            let now = match middle == time[sample] {
+                true => displacement[sample],
+                false => course.at(middle, &mut places[0]),
+            };
+            let half = (0.5 * reach * frequency).min(1.0);
+            (later - 2.0 * now + earlier) / square(reach * sin(half) / half)
         })
         .collect()
 }
 
-/// Sum of squares of the moves from sample to sample.
-fn moves(channel: &[f64]) -> f64 {
-    channel.windows(2).map(|two| square(two[1] - two[0])).sum()
+/// Differences that are taken of a channel to leave its noise alone.
+const DIFFERENCES: usize = 6;
+
+/// Variance of such a difference over that of a sample, the sum of the squared binomials, 12!/(6!)².
+const OF_DIFFERENCE: f64 = 924.0;
+
+/// Median of the magnitude of a normal variable over its standard deviation.
+const MEDIAN: f64 = 0.6745;
+
+/// Standard deviation of a channel's noise, from the median of its sixth differences: motion and its corners
+/// take no part.
+fn noise(channel: &[f64]) -> f64 {
+    let mut differences = channel.to_vec();
+    for _ in 0..DIFFERENCES {
+        differences = differences.windows(2).map(|two| two[1] - two[0]).collect();
+    }
+    let mut sizes: Vec<f64> = differences.iter().map(|d| d.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
+    median / (MEDIAN * OF_DIFFERENCE.sqrt())
 }
 
 impl Effect for FixtureInertia {
@@ -84,15 +95,15 @@ impl Effect for FixtureInertia {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    fn inertia(&self, values: &[f64]) -> Option<f64> {
+        Some(values[0])
+    }
     /// What a mass changes of the force's peaks moves the turning points of every operator.
     fn jumps_with(&self, _parameter: usize) -> bool {
         true
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        acceleration(values[0], truth)
-            .iter()
-            .map(|a| values[0] * a)
-            .collect()
+        acceleration(truth).iter().map(|a| values[0] * a).collect()
     }
 }
 

@@ -19,53 +19,6 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "time by which the displacement channel lags the force channel",
 }];
 
-/// U by cubic pieces through the samples with slopes of their neighbours; before the record the joint
-/// was at rest, after it the last piece goes straight on.
-pub(super) struct Course<'a> {
-    time: &'a [f64],
-    displacement: &'a [f64],
-    slopes: Vec<f64>,
-}
-
-impl<'a> Course<'a> {
-    /// Through the samples of a trajectory.
-    pub(super) fn of(truth: &'a Trajectory) -> Course<'a> {
-        let (time, displacement) = (&truth.time, &truth.displacement);
-        let slope = |i: usize| {
-            let (low, high) = (i.saturating_sub(1), (i + 1).min(time.len() - 1));
-            let length = time[high] - time[low];
-            match length > 0.0 {
-                true => (displacement[high] - displacement[low]) / length,
-                false => 0.0,
-            }
-        };
-        Course {
-            time,
-            displacement,
-            slopes: (0..time.len()).map(slope).collect(),
-        }
-    }
-
-    /// U at `time`.
-    pub(super) fn at(&self, time: f64, passed: &mut Passed) -> f64 {
-        let (t, u) = (self.time, self.displacement);
-        let after = passed.at(t, time);
-        let Some(i) = after.checked_sub(1) else {
-            return u.first().copied().unwrap_or_default();
-        };
-        if after == t.len() {
-            return u[i] + self.slopes[i] * (time - t[i]);
-        }
-        let length = t[after] - t[i];
-        let x = (time - t[i]) / length;
-        let bend = [self.slopes[i] * length, self.slopes[after] * length];
-        let rise = u[after] - u[i];
-        let cubic = bend[0] + bend[1] - 2.0 * rise;
-        let square = 3.0 * rise - 2.0 * bend[0] - bend[1];
-        u[i] + x * (bend[0] + x * (square + x * cubic))
-    }
-}
-
 impl Effect for SensorDelay {
     fn name(&self) -> &'static str {
         "sensor_delay"
@@ -80,7 +33,7 @@ impl Effect for SensorDelay {
         Some(values[0])
     }
     fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let course = Course::of(truth);
+        let course = truth.course();
         let mut passed = Passed::default();
         let samples = truth.time.iter().zip(&truth.displacement);
         samples
@@ -114,25 +67,6 @@ impl Cause for SensorDelay {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_course_goes_through_the_samples() {
-        let even: Vec<f64> = (0..100).map(|i| 0.3 + 0.01 * f64::from(i)).collect();
-        let uneven: Vec<f64> = even.iter().map(|t| t.powi(5)).collect();
-        for time in [even, uneven, vec![2.0]] {
-            let truth = Trajectory {
-                begins: 0.0,
-                displacement: time.clone(),
-                force: vec![],
-                time: time.clone(),
-            };
-            let course = Course::of(&truth);
-            let mut passed = Passed::default();
-            for at in &time {
-                assert!((course.at(*at, &mut passed) - at).abs() < 1e-15);
-            }
-        }
-    }
 
     #[test]
     fn a_sine_is_read_late_or_early_by_parts_of_a_sample() {

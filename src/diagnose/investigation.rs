@@ -86,7 +86,7 @@ fn searched(
         }
     }
     progress("searching the catalogue for causes");
-    let found = search(&bench, timed, first);
+    let found = search(&mut bench, timed, first);
     bench.weigh_what_is_left(&found.best);
     Investigation { bench, found }
 }
@@ -161,6 +161,7 @@ impl Investigation {
             let mut one = Problem {
                 operators: train.operators.clone(),
                 records: vec![train.records[k].clone()],
+                hauling: train.hauling,
             };
             one.records[0].beginning.clone_from(beginning);
             one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0

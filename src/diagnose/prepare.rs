@@ -133,6 +133,12 @@ pub fn prepare(records: &[Record], beginnings: &[Beginning]) -> Bench {
 }
 
 impl Bench {
+    /// Marches in so many parts of a step from now on where a mass moves with the joint.
+    pub fn haul_in(&mut self, parts: u32) {
+        self.whole.hauling = parts;
+        self.train.hauling = parts;
+    }
+
     /// True for a sample that no fit has seen and that is a witness.
     pub fn is_unseen(&self, record: usize, sample: usize) -> bool {
         self.held[record][sample] && self.whole.records[record].counts(sample)

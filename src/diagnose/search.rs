@@ -6,7 +6,8 @@ use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion};
-use crate::identify::{Fit, smoothed};
+use crate::identify::{Fit, refit, smoothed};
+use crate::joint::effect::Acting;
 
 /// Most causes named together.
 pub(super) const MOST: usize = 3;
@@ -47,8 +48,11 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
 }
 
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
-pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
+///
+/// A mass that moves with the joint is marched in shorter steps from where it was found, if it explains more so.
+pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
+    let best = finely(bench, best);
     let least = least(&bench.train, &baseline);
     let (settled, mut places) = settled(bench, timed, least, best, &first);
     let best = tested(bench, &baseline, settled.clone());
@@ -66,6 +70,24 @@ pub fn search(bench: &Bench, timed: bool, baseline: Fit) -> Found {
         best,
         trials: first,
     }
+}
+
+/// Parts of a step in which a mass that was found moves with the joint.
+const HAULING: u32 = 2;
+
+/// The set on a bench that marches in shorter steps, where it has a mass that they suit better.
+fn finely(bench: &mut Bench, best: Fit) -> Fit {
+    let hauls = |acting: &Acting| acting.effect.inertia(&acting.values).is_some();
+    if !best.effects.iter().any(hauls) {
+        return best;
+    }
+    bench.haul_in(HAULING);
+    let finer = refit(&bench.train, &best, best.effects.clone());
+    if finer.misfit < best.misfit {
+        return finer;
+    }
+    bench.haul_in(1);
+    best
 }
 
 /// Exchanges causes of a set of several as long as that makes it better.

@@ -1,6 +1,7 @@
 //! A displacement that comes late, read ahead: its corners come with it.
 
 use super::problem::Prepared;
+use crate::joint::course::{Corner, Course};
 use crate::joint::effect::{Acting, Place};
 use crate::joint::passed::Passed;
 use crate::record::peaks::{Between, Peak, is_between};
@@ -22,14 +23,15 @@ pub(super) fn lateness(effects: &[Acting]) -> Option<f64> {
 /// by more than a sixth of their period.
 pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec<f64>, Between) {
     let time = &record.time;
-    let corners = corners(record, measured);
-    let mut course = Course {
+    let corners = corners(&record.time, measured, &record.between);
+    let course = Course {
         time,
-        measured,
+        values: measured,
         corners: &corners,
-        passed: Passed::default(),
     };
-    let input: Vec<f64> = time.iter().map(|t| course.at(t + late)).collect();
+    let mut passed = Passed::default();
+    let ahead = time.iter().map(|t| course.at(t + late, &mut passed));
+    let input: Vec<f64> = ahead.collect();
     let mut found = Between::default();
     let mut put = |peak: f64, value: f64, corner: bool| {
         let before = time.partition_point(|&t| t <= peak);
@@ -59,25 +61,16 @@ pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec
     (input, found.in_order())
 }
 
-/// A point at which the rate jumps.
-struct Corner {
-    /// The first sample behind it.
-    before: usize,
-    time: f64,
-    value: f64,
-}
-
-fn corners(record: &Prepared, measured: &[f64]) -> Vec<Corner> {
-    let mut peaks = record.between.peaks.iter().peekable();
-    let kinks = record.between.kinks.iter().filter(|&&kink| kink > 0);
+/// Corners of an input: where its kinks are, between samples or at one.
+pub(super) fn corners(time: &[f64], input: &[f64], between: &Between) -> Vec<Corner> {
+    let mut peaks = between.peaks.iter().peekable();
+    let kinks = between.kinks.iter().filter(|&&kink| kink > 0);
     kinks
         .map(|&before| {
             while peaks.next_if(|peak| peak.before < before).is_some() {}
             let (time, value) = match peaks.peek() {
-                Some(peak) if peak.before == before => {
-                    (record.time[before] - peak.ahead, peak.value)
-                }
-                _ => (record.time[before - 1], measured[before - 1]),
+                Some(peak) if peak.before == before => (time[before] - peak.ahead, peak.value),
+                _ => (time[before - 1], input[before - 1]),
             };
             Corner {
                 before,
@@ -88,68 +81,12 @@ fn corners(record: &Prepared, measured: &[f64]) -> Vec<Corner> {
         .collect()
 }
 
-/// The measured displacement between its samples, by pieces that do not reach across corners.
-struct Course<'a> {
-    time: &'a [f64],
-    measured: &'a [f64],
-    corners: &'a [Corner],
-    passed: Passed,
-}
-
-impl Course<'_> {
-    fn at(&mut self, time: f64) -> f64 {
-        let (t, u) = (self.time, self.measured);
-        let after = self.passed.at(t, time);
-        if after == 0 || t.len() < 4 {
-            return u[after.saturating_sub(1)];
-        }
-        // Behind the end the last piece goes on.
-        let after = after.min(t.len() - 1);
-        if let Some(corner) = self.corner(after)
-            && corner.time > t[after - 1]
-        {
-            let line =
-                |a: (f64, f64), b: (f64, f64)| a.1 + (b.1 - a.1) * (time - a.0) / (b.0 - a.0);
-            let tip = (corner.time, corner.value);
-            return match time < corner.time {
-                true => line((t[after - 1], u[after - 1]), tip),
-                false => line(tip, (t[after], u[after])),
-            };
-        }
-        let low =
-            match after < 2 || self.corner(after - 1).is_some() || self.corner(after).is_some() {
-                true => after - 1,
-                false => after - 2,
-            };
-        let high = match after + 1 >= t.len() || self.corner(after + 1).is_some() {
-            true => after,
-            false => after + 1,
-        };
-        through(&t[low..=high], &u[low..=high], time)
-    }
-
-    fn corner(&self, before: usize) -> Option<&Corner> {
-        let found = self.corners.binary_search_by_key(&before, |c| c.before);
-        found.ok().map(|i| &self.corners[i])
-    }
-}
-
-/// The polynomial through two to four points (Lagrange).
-fn through(times: &[f64], values: &[f64], time: f64) -> f64 {
-    let weight = |i: usize| {
-        let others = (0..times.len()).filter(|&j| j != i);
-        others
-            .map(|j| (time - times[j]) / (times[i] - times[j]))
-            .product::<f64>()
-    };
-    let points = values.iter().enumerate();
-    points.map(|(i, value)| weight(i) * value).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::Form;
+    use crate::identify::{Form, Problem};
+    use crate::joint::effect::{Effect, Response};
+    use crate::joint::parameters::Parameter;
     use crate::record::Record;
 
     fn prepared(wave: impl Fn(f64) -> f64) -> Prepared {
@@ -192,6 +129,80 @@ mod tests {
                     count += 1;
                 }
                 assert!(count >= 16, "{count}");
+            }
+        }
+    }
+
+    struct Late;
+
+    impl Effect for Late {
+        fn name(&self) -> &'static str {
+            "late"
+        }
+        fn place(&self) -> Place {
+            Place::DisplacementChannel
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn lateness(&self, values: &[f64]) -> Option<f64> {
+            Some(values[0])
+        }
+    }
+
+    struct Gap;
+
+    impl Effect for Gap {
+        fn name(&self) -> &'static str {
+            "gap"
+        }
+        fn place(&self) -> Place {
+            Place::Spring
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn spring(&self, values: &[f64], force: f64) -> Response {
+            let filled = force.tanh();
+            Response {
+                value: values[0] * filled,
+                slope: values[0] * (1.0 - filled * filled),
+                damping: 0.0,
+            }
+        }
+    }
+
+    /// A sensor that comes late by less than a sample, and by more, shows what the joint did before: the corners of
+    /// its load between samples, and the gap that it crosses within one.
+    #[test]
+    fn where_force_drives_the_joint_is_read_as_it_was() {
+        let triangle = |t: f64| 100.0 * (4.0 * (t - 0.25 - (t - 0.25).round()).abs() - 1.0);
+        let problem = |late: f64| {
+            let time: Vec<f64> = (0..600).map(|i| 0.0167 * f64::from(i)).collect();
+            let force: Vec<f64> = time.iter().map(|t| triangle((t - late).max(0.0))).collect();
+            let record = Record {
+                name: "late".to_string(),
+                displacement: vec![0.0; time.len()],
+                force,
+                time: Some(time),
+                ..Record::default()
+            };
+            Problem::new(Form::Play, &[record])
+        };
+        let acting = |effect: &'static dyn Effect, value: f64| Acting {
+            effect,
+            values: vec![value],
+        };
+        let gap = acting(&Gap, 1e-6);
+        let now = problem(0.0);
+        let mut coefficients = vec![0.0; now.operators.columns()];
+        (coefficients[0], coefficients[5], coefficients[20]) = (1e-8, 1e-9, 1e-9);
+        for late in [0.004, 0.0402] {
+            let read = now.predict(&coefficients, &[gap.clone(), acting(&Late, late)]);
+            let was = problem(late).predict(&coefficients, std::slice::from_ref(&gap));
+            let pairs = read[0].judged.iter().zip(&was[0].judged).skip(8).take(580);
+            for (i, (read, was)) in pairs.enumerate() {
+                assert!((read - was).abs() < 1e-10, "{late}, {i}: {read} and {was}");
             }
         }
     }

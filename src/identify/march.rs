@@ -3,6 +3,7 @@
 //! cannot disagree.
 
 use super::bracket::Bracket;
+use super::inertia::{Hauled, Inertia};
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation, Trajectory};
@@ -18,7 +19,11 @@ pub struct March<'a> {
     earlier: Option<(f64, f64)>,
     /// Share of the last step: where the next one's root is looked for first.
     share: f64,
+    /// Force at the last step's end, all that is beside the joint included.
+    applied: f64,
     limits: (f64, f64),
+    /// Where force drives: where the displacement does, its acceleration is measured.
+    inertia: Inertia,
     has: [bool; 7],
     counts_energy: bool,
 }
@@ -35,11 +40,16 @@ pub struct Step {
     /// d displacement / d its two earlier values, latest first: a force that follows the rate of the
     /// displacement carries a change of the model on to later samples.
     pub carried: [f64; 2],
+    /// What a mass does in the step; its derivatives by the motion before are those of the displacement.
+    pub(super) hauled: Hauled,
 }
 
 /// Error of a step's equation, as a share of its input, that counts as none: a derivative by
 /// differences of a ten-thousandth is good to a part in a million of it, even for small effects.
 const PRECISE: f64 = 1e-13;
+
+/// Rounding of a difference of displacements, as a share of one.
+const ROUNDED: f64 = 1e-15;
 
 /// Trials after which a step takes what it has.
 const MOST_TRIALS: usize = 60;
@@ -58,12 +68,12 @@ pub enum Cells {
 }
 
 impl<'a> March<'a> {
-    /// A virgin joint with the given coefficients (elastic first, then one per cell).
+    /// A virgin joint with the given coefficients (elastic first, then one per cell); a mass wants steps in `parts`.
     pub fn new(
         operators: &'a Operators,
         coefficients: &'a [f64],
         effects: &'a [Acting],
-        cells: Cells,
+        (cells, parts): (Cells, u32),
     ) -> Self {
         let mut has = [false; 7];
         for acting in effects {
@@ -95,7 +105,12 @@ impl<'a> March<'a> {
             last: Situation::default(),
             earlier: None,
             share: 1.0,
+            applied: 0.0,
             limits: (1.0, 1.0),
+            inertia: match operators.form {
+                Form::Play => Inertia::of(effects, parts),
+                Form::Stop => Inertia::default(),
+            },
             has,
             // Only slip limits see the energy; without effects it is what the march is asked for.
             counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
@@ -104,6 +119,11 @@ impl<'a> March<'a> {
 
     /// True where a change of the model is carried on from sample to sample.
     pub(super) fn carries(&self) -> bool {
+        self.follows_rates() || self.inertia.acts()
+    }
+
+    /// True where a force follows the rate.
+    pub(super) fn follows_rates(&self) -> bool {
         self.has[index(Place::BesideJoint)]
     }
 
@@ -250,6 +270,16 @@ impl<'a> March<'a> {
         self.last.dissipation = 0.0;
     }
 
+    /// True where a mass moves with the joint.
+    pub(super) fn hauls(&self) -> bool {
+        self.inertia.acts()
+    }
+
+    /// Parts that a mass wants the steps of samples in.
+    pub(super) fn hauling(&self) -> u32 {
+        self.inertia.parts
+    }
+
     fn update_limits(&mut self) {
         if !self.has[index(Place::SlipLimit)] {
             return;
@@ -265,9 +295,9 @@ impl<'a> March<'a> {
     }
 
     fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
-        let parallel = self.has[index(Place::BesideSlip)] || self.has[index(Place::BesideJoint)];
+        let parallel = self.has[index(Place::BesideSlip)] || self.carries();
         let mut trial = if parallel {
-            self.network_force() + self.share * (force - self.last_applied())
+            self.network_force() + self.share * (force - self.applied)
         } else {
             force
         };
@@ -284,41 +314,33 @@ impl<'a> March<'a> {
             let displacement = slip + path;
             let displacement_slope = tangent + path_slope * joint_slope;
             let (across, across_slope, velocity) = self.beside_joint(displacement, step);
-            let error = joint_force + across - force;
-            let slope = joint_slope + across_slope * displacement_slope;
+            let hauled = self.inertia.at(step, displacement);
+            let error = joint_force + across + hauled.force - force;
+            let slope = joint_slope + (across_slope + hauled.slope) * displacement_slope;
             answer = (slip, joint_force, displacement, velocity);
             let share = (1.0 / slope).clamp(0.0, 1.0);
             let carried = self.carried(displacement, step, across_slope);
-            let carried = carried.map(|c| c * displacement_slope * share);
             let next = bracket.next(trial, error, slope, 2.0 * error);
+            let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 self.share = share;
+                self.applied = force;
+                self.inertia.passed(hauled.stride, displacement);
                 self.accept(time, step, answer);
                 return Step {
-                    force,
+                    force: force - hauled.force,
                     displacement,
                     share,
-                    carried,
+                    carried: carried.map(|c| c * displacement_slope * share),
+                    hauled: Hauled {
+                        carried: hauled.carried.map(|c| -c * displacement_slope * share),
+                        ..hauled
+                    },
                 };
             }
             trial = next;
             round += 1;
         }
-    }
-
-    fn last_applied(&self) -> f64 {
-        let mut across = 0.0;
-        if self.has[index(Place::BesideJoint)] {
-            for acting in self.effects {
-                if acting.effect.place() == Place::BesideJoint {
-                    across += acting
-                        .effect
-                        .beside_joint(&acting.values, self.last.displacement, self.last.velocity)
-                        .value;
-                }
-            }
-        }
-        self.last.force + across
     }
 
     fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
@@ -349,7 +371,7 @@ impl<'a> March<'a> {
                     force: joint_force + across,
                     displacement,
                     share,
-                    carried: [0.0; 2],
+                    ..Step::default()
                 };
             }
             trial = next;

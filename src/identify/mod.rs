@@ -9,6 +9,7 @@ pub mod exported;
 pub mod family;
 pub mod finer;
 pub mod fit;
+mod inertia;
 pub mod initial;
 pub mod interval;
 pub mod lanes;

@@ -1,10 +1,9 @@
 //! Records prepared for identification: one judged channel, weights, whitening, one common grid.
 
 use super::beginning::Beginning;
-use super::late::{lateness, read_ahead};
 use super::march::{Cells, March, Step, added};
 use super::operators::{Form, Operators};
-use super::undone::{corrected, undone};
+use super::undone::{corrected, true_input};
 use super::walk::walk;
 use super::weighing::whiten;
 use crate::joint::effect::{Acting, Place, Trajectory};
@@ -103,6 +102,8 @@ pub struct Problem {
     pub operators: Operators,
     /// The records.
     pub records: Vec<Prepared>,
+    /// Parts of every step in which a mass moves with the joint: one is enough to find it.
+    pub hauling: u32,
 }
 
 /// Prediction of one record by one model, without the record's offset.
@@ -141,6 +142,7 @@ impl Problem {
         Problem {
             operators: Operators::grid(form, range),
             records,
+            hauling: 1,
         }
     }
 
@@ -153,9 +155,9 @@ impl Problem {
     /// peaks between samples.
     ///
     /// An effect on the input's own channel needs the truth to be corrected. What a sensor adds to the
-    /// displacement follows from that alone, see [`undone`]; for what a load cell adds the pass is repeated
-    /// from the truth of the one before it: the correction is small against the input and the repetition
-    /// contracts.
+    /// displacement follows from that alone, see [`undone`]; a mass that the load cell reads is marched with the
+    /// joint; for what else it adds the pass is repeated from the truth of the one before it: the correction is
+    /// small against the input and the repetition contracts.
     pub fn pass(
         &self,
         k: usize,
@@ -173,38 +175,37 @@ impl Problem {
         mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> Prediction {
         let record = &self.records[k];
-        let (measured, _) = self.channels(k);
+
         let input_place = match self.operators.form {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
         };
-        let on_input = effects.iter().any(|a| a.effect.place() == input_place);
+        let corrects = |a: &&Acting| a.effect.place() == input_place && !self.is_marched(a);
+        let correcting: Vec<Acting> = effects.iter().filter(corrects).cloned().collect();
         let mut truth = Trajectory {
             time: record.time.clone(),
             force: record.force.clone(),
             displacement: record.displacement.clone(),
             begins: self.records[..k].iter().map(Prepared::length).sum(),
         };
-        let mut input = measured.to_vec();
-        let mut between = record.between.clone();
-        let rounds = match (on_input, self.operators.form) {
-            (true, Form::Play) => ROUNDS,
-            (true, Form::Stop) => {
-                // What a sensor adds to the displacement follows from that alone.
-                (input, between) = match lateness(effects) {
-                    Some(late) => read_ahead(record, measured, late),
-                    None => {
-                        let added = undone(effects, &mut truth, measured);
-                        corrected(measured, &record.between, &added)
-                    }
-                };
-                truth.displacement.clone_from(&input);
-                1
-            }
-            (false, _) => 1,
+        let (mut input, mut between) = true_input(
+            (self.operators.form, record),
+            effects,
+            &correcting,
+            &mut truth,
+        );
+        let rounds = match (correcting.is_empty(), self.operators.form) {
+            (false, Form::Play) => ROUNDS,
+            _ => 1,
         };
+        let as_read = (rounds > 1).then(|| (input.clone(), between.clone()));
         for round in 0..rounds {
-            let mut march = March::new(&self.operators, coefficients, effects, cells);
+            let mut march = March::new(
+                &self.operators,
+                coefficients,
+                effects,
+                (cells, self.hauling),
+            );
             walk(record, (&input, &between), &mut march, |i, march, step| {
                 if let Some(i) = i {
                     truth.force[i] = step.force;
@@ -215,9 +216,10 @@ impl Problem {
                 }
             });
             if round + 1 < rounds
-                && let Some(added) = added(effects, input_place, &truth)
+                && let Some(added) = added(&correcting, input_place, &truth)
+                && let Some((read, turned)) = &as_read
             {
-                (input, between) = corrected(measured, &record.between, &added);
+                (input, between) = corrected(read, turned, &added);
             }
         }
         let judged = self.judged(&truth, effects);
@@ -240,27 +242,39 @@ impl Problem {
         }
     }
 
+    /// True for what the measuring chain does that the march takes along where force drives: a mass moves with the
+    /// joint, and of a displacement that comes late the force is read as late.
+    fn is_marched(&self, acting: &Acting) -> bool {
+        let Acting { effect, values } = acting;
+        self.operators.form == Form::Play
+            && (effect.inertia(values).is_some() || effect.lateness(values).is_some())
+    }
+
     /// The judged channel as the measuring chain gives it.
     fn judged(&self, truth: &Trajectory, effects: &[Acting]) -> Vec<f64> {
         let mut judged = match self.operators.form {
             Form::Play => truth.displacement.clone(),
             Form::Stop => truth.force.clone(),
         };
-        if let Some(added) = added(effects, self.judged_place(), truth) {
+        let place = self.judged_place();
+        let adds = |a: &&Acting| a.effect.place() == place && !self.is_marched(a);
+        let adding: Vec<Acting> = effects.iter().filter(adds).cloned().collect();
+        if let Some(added) = added(&adding, place, truth) {
             judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
         }
         judged
     }
 
-    /// What the judged channels of `at` gain by other effects, of which those at the place of the one
-    /// `changed` alone differ; where that is the judged channel, the march is the same.
+    /// What the judged channels of `at` gain by other effects, of which the one `changed` alone differs; where that
+    /// acts on the judged channel, the march is the same.
     pub fn gained(
         &self,
         (coefficients, at): (&[f64], &[Prediction]),
         effects: &[Acting],
-        changed: Place,
+        changed: &Acting,
     ) -> Vec<Vec<f64>> {
-        let judged = match changed == self.judged_place() {
+        let same = changed.effect.place() == self.judged_place() && !self.is_marched(changed);
+        let judged = match same {
             true => at
                 .par_iter()
                 .map(|p| self.judged(&p.truth, effects))

@@ -1,19 +1,22 @@
 //! Rows of the dictionary along a pass, with what each carries on to later ones.
 
+use super::inertia::Motion;
 use super::march::{March, Step};
 use super::problem::{Prediction, Problem};
 use super::slopes::Slope;
 use super::weighing::Weighing;
 use crate::joint::effect::Acting;
 
-/// The rows of the last two samples.
+/// The rows of the last two steps.
 #[derive(Debug, Clone, Default)]
 pub struct Rows {
     before: [Vec<f64>; 2],
+    /// Of the motion of a mass.
+    motion: Vec<Motion>,
 }
 
 impl Rows {
-    /// Row at the last accepted sample, `D_i = share P_i + Σ_k carried_k D_{i−k}` with P the operators'
+    /// Row at the end of the last step, `D_i = share P_i + Σ_k carried_k D_{i−k}` with P the operators'
     /// outputs: d judged / d coefficient, but for what a moved input does to the operators' memory.
     /// Checked against differences of whole passes below.
     pub fn next(&mut self, march: &March, step: Step, row: &mut [f64]) {
@@ -24,6 +27,14 @@ impl Rows {
         for (before, share) in self.before.iter().zip(step.carried) {
             for (value, earlier) in row.iter_mut().zip(before) {
                 *value += share * earlier;
+            }
+        }
+        if march.hauls() {
+            self.motion.resize(row.len(), Motion::default());
+            for (value, motion) in row.iter_mut().zip(&mut self.motion) {
+                let both = motion.iter().zip(step.hauled.carried);
+                *value += both.map(|(m, share)| m * share).sum::<f64>();
+                *motion = step.hauled.stride.end(*motion, *value);
             }
         }
         self.before.swap(0, 1);
@@ -72,6 +83,7 @@ pub(super) fn each_row(
 mod tests {
     use super::*;
     use crate::identify::Form;
+    use crate::identify::inertia::tests::Mass;
     use crate::joint::effect::{Effect, Place, Response};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -97,11 +109,16 @@ mod tests {
         }
     }
 
-    /// With a dashpot whose force is a third of the joint's, sampled four hundred times a cycle, the
-    /// rows are the derivatives of the displacement; without what is carried on they are off by a
-    /// multiple of themselves.
+    /// With a dashpot whose force is a third of the joint's, or a mass, sampled four hundred times a cycle, the
+    /// rows are the derivatives of the displacement; without what is carried on they are `off` by a good part of
+    /// themselves.
     #[test]
-    fn rows_beside_a_dashpot_are_derivatives_of_the_pass() {
+    fn rows_beside_a_dashpot_or_a_mass_are_derivatives_of_the_pass() {
+        rows_are_derivatives(&Dashpot, 5e6, 0.5);
+        rows_are_derivatives(&Mass, 4e5, 0.1);
+    }
+
+    fn rows_are_derivatives(effect: &'static dyn Effect, value: f64, off: f64) {
         let time: Vec<f64> = (0..1200).map(|i| 0.0025 * f64::from(i)).collect();
         let force: Vec<f64> = time
             .iter()
@@ -118,10 +135,10 @@ mod tests {
         let columns = problem.operators.columns();
         // Elastic but for a little slip, so that the operators' memory hardly takes part.
         let mut coefficients = vec![0.0; columns];
-        (coefficients[0], coefficients[5], coefficients[20]) = (1e-8, 1e-10, 1e-10);
+        (coefficients[0], coefficients[5], coefficients[20]) = (1e-8, 1e-11, 1e-11);
         let effects = [Acting {
-            effect: &Dashpot,
-            values: vec![5e6],
+            effect,
+            values: vec![value],
         }];
         let at = problem.predict(&coefficients, &effects);
         for column in [0, 5, 20] {
@@ -142,8 +159,16 @@ mod tests {
                 bare = bare.max((at_once - difference).abs());
                 size = size.max(difference.abs());
             });
-            assert!(wrong < 0.02 * size, "column {column}: {wrong} of {size}");
-            assert!(bare > 0.5 * size, "column {column}: {bare} of {size}");
+            assert!(
+                wrong < 0.02 * size,
+                "{}, column {column}: {wrong} of {size}",
+                effect.name()
+            );
+            assert!(
+                bare > off * size,
+                "{}, column {column}: {bare} of {size}",
+                effect.name()
+            );
         }
     }
 }

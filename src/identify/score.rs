@@ -64,7 +64,7 @@ fn score_batch(problem: &Problem, current: &Current, batch: &[Acting]) -> Vec<Sc
         .map(|tried| {
             let mut effects = acting.clone();
             effects.push(tried.clone());
-            problem.gained((&fit.coefficients, at), &effects, tried.effect.place())
+            problem.gained((&fit.coefficients, at), &effects, tried)
         })
         .collect();
     let all = size + batch.len();

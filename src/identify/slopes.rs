@@ -43,8 +43,7 @@ pub(super) fn slopes(
             }
             let mut shifted = effects.to_vec();
             shifted[e].values[p] = value + unit;
-            let place = acting.effect.place();
-            let values = problem.gained((coefficients, at), &shifted, place);
+            let values = problem.gained((coefficients, at), &shifted, acting);
             if values.iter().flatten().any(|v| *v != 0.0) {
                 slopes.push(Slope {
                     effect: e,

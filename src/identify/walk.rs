@@ -1,7 +1,10 @@
 //! The steps of a march through one record: its samples, and what lies between them.
 
+use super::late::corners;
 use super::march::{March, Step};
 use super::problem::Prepared;
+use crate::joint::course::Course;
+use crate::joint::passed::Passed;
 use crate::record::peaks::Between;
 
 /// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
@@ -23,6 +26,16 @@ pub(super) fn walk(
     if !turned.is_empty() {
         march.precede(record.time.first().copied().unwrap_or(0.0), turned);
     }
+    let corners = match march.hauls() {
+        true => corners(&record.time, input, between),
+        false => Vec::new(),
+    };
+    let course = Course {
+        time: &record.time,
+        values: input,
+        corners: &corners,
+    };
+    let mut passed = Passed::default();
     for (i, &driven) in input.iter().enumerate() {
         let to = (record.time[i], driven);
         let mut left = record.steps[i];
@@ -37,15 +50,21 @@ pub(super) fn walk(
             march.kink();
             since_kink = 0;
         }
-        let parts = match march.carries() {
-            true => BEHIND_KINK.get(since_kink).copied().unwrap_or(1),
-            false => 1,
+        let parts = match (march.follows_rates(), march.hauls()) {
+            (true, _) if since_kink < BEHIND_KINK.len() => BEHIND_KINK[since_kink],
+            (_, true) if i > 0 => march.hauling(),
+            _ => 1,
         };
         let length = left / f64::from(parts);
         for part in 1..parts {
             let share = f64::from(part) / f64::from(parts);
             let at = |a: f64, b: f64| a + share * (b - a);
-            let step = march.step(at(from.0, to.0), length, at(from.1, to.1));
+            let time = at(from.0, to.0);
+            let driven = match march.hauls() {
+                true => course.at(time, &mut passed),
+                false => at(from.1, to.1),
+            };
+            let step = march.step(time, length, driven);
             each(None, march, step);
         }
         let step = march.step(to.0, length, driven);

@@ -8,6 +8,7 @@
 //! ```
 //! with the break-free forces of the network multiplied by the slip limit.
 
+use super::course::Course;
 use super::elementary::square;
 use super::parameters::Parameter;
 
@@ -100,6 +101,15 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
+    /// The displacement between the samples.
+    pub fn course(&self) -> Course<'_> {
+        Course {
+            time: &self.time,
+            values: &self.displacement,
+            corners: &[],
+        }
+    }
+
     /// Frequency of the sine that moves as far and as fast as the displacement does, `rms(U̇)/rms(U)` about its
     /// mean \[rad/s\]; no number of a displacement that rests.
     pub fn frequency(&self) -> f64 {
@@ -173,8 +183,13 @@ pub trait Effect: Send + Sync {
         None
     }
     /// [`Place::DisplacementChannel`]: time by which the channel comes late, of an effect that does nothing
-    /// else to it \[s\].
+    /// else to it \[s\]. Where force drives the joint is marched as late.
     fn lateness(&self, _values: &[f64]) -> Option<f64> {
+        None
+    }
+    /// [`Place::ForceChannel`]: mass whose acceleration the cell reads beside the joint's force, of an effect that
+    /// does nothing else to it \[kg\]. Where force drives it moves with the joint.
+    fn inertia(&self, _values: &[f64]) -> Option<f64> {
         None
     }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true

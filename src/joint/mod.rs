@@ -1,5 +1,6 @@
 //! The physics of the joint: densities, virgin curve, exact memory, slider network, effects.
 
+pub mod course;
 pub mod density;
 pub mod effect;
 pub(crate) mod elementary;

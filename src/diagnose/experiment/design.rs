@@ -285,6 +285,7 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
     let program = Problem {
         operators: problem.operators.clone(),
         records: vec![record],
+        hauling: problem.hauling,
     };
     (program, count as f64)
 }

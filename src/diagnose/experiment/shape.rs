@@ -121,8 +121,7 @@ pub fn signature(
     without: &[Prediction],
 ) -> Vec<Vec<f64>> {
     let effects = std::slice::from_ref(acting);
-    let place = acting.effect.place();
-    let mut gained = problem.gained((coefficients, without), effects, place);
+    let mut gained = problem.gained((coefficients, without), effects, acting);
     let spoilt = gained.iter_mut().flatten().filter(|x| !x.is_finite());
     spoilt.for_each(|x| *x = 0.0);
     gained
