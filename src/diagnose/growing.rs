@@ -3,7 +3,7 @@
 use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
-use super::tested::Prospect;
+use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, alarm, dispersion, trials};
 use crate::identify::{Fit, Problem};
 
@@ -124,24 +124,28 @@ impl Grow<'_> {
         current
     }
 
-    /// True where a set leaves structure, and more than the laws of the right causes may be wrong by.
+    /// True where a set leaves structure, on held-out samples as well, and more than the laws of the right causes
+    /// may be wrong by.
     fn leaves_another(&self, baseline: &Fit, best: &Fit) -> bool {
         let problem = &self.bench.train;
-        let wrong_by = NEARLY * (baseline.misfit - problem.rows() as f64);
-        leaves_structure(problem, best) && places::beyond_scatter(problem, best) > wrong_by
+        let wrong_by = |baseline: f64| NEARLY * baseline;
+        let seen = leaves_structure(problem, best)
+            && places::beyond_scatter(problem, best)
+                > wrong_by(baseline.misfit - problem.rows() as f64);
+        let left = unseen_beyond_scatter(self.bench, best);
+        seen || left > wrong_by(beyond_unseen(self.bench, baseline))
+            && left > STRUCTURE * unseen_rows(self.bench)
     }
 
-    /// The best pair that begins with a first cause outside of the set, if it is better than the set.
+    /// The best pair that begins with another cause than the set began with, if it is better than the set. Of the
+    /// same two the first may have taken from the second what no step of both gives back.
     fn elsewhere(&self, best: &Fit, first: &[Trial]) -> Option<Fit> {
         let evident = alarm(&self.bench.train);
+        let began = best.effects.first();
         let mut beginnings: Vec<&Trial> = first
             .iter()
             .filter(|t| t.plausible && t.evidence >= evident)
-            .filter(|t| {
-                best.effects
-                    .iter()
-                    .all(|a| a.effect.name() != t.cause.name())
-            })
+            .filter(|t| began.is_none_or(|a| a.effect.name() != t.cause.name()))
             .collect();
         beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
         let least = ALARM * dispersion(&self.bench.train, best);

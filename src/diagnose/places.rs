@@ -118,7 +118,12 @@ fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
 /// Misfit beyond what noise alone leaves, its scatter included.
 pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
     let rows = problem.rows() as f64;
-    fit.misfit - rows - SCATTER * (2.0 * rows).sqrt()
+    fit.misfit - rows - scatter(rows)
+}
+
+/// What a sum of squares of noise alone may exceed its mean by, in noise variances.
+pub fn scatter(rows: f64) -> f64 {
+    SCATTER * (2.0 * rows).sqrt()
 }
 
 /// Difference of misfit, in noise variances, within which two causes count as equally good: a

@@ -2,6 +2,7 @@
 //! cycles beside the others.
 
 use super::gain::ratio;
+use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
 use crate::identify::{Fit, refit};
 use crate::record::noise::independence;
@@ -12,10 +13,14 @@ use crate::record::noise::independence;
 /// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
 /// causes, the more ways to mend by one what another's law is wrong about. One that takes most of
 /// the misfit away, and a substantial part of the baseline's, stays: what happens once, or at one rate,
-/// few held-out cycles show.
+/// few held-out cycles show. So does one of a set that leaves noise alone, whose gain is beyond that noise: of a
+/// few cycles a bootstrap tells little.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     let beyond = baseline.misfit - bench.train.rows() as f64;
     let substantial = SUBSTANTIAL * beyond;
+    // Of a set that leaves noise alone nothing but noise makes a gain by chance.
+    let noise_alone =
+        beyond_scatter(&bench.train, &fit) <= 0.0 && unseen_beyond_scatter(bench, &fit) <= 0.0;
     while fit.effects.len() > 1 {
         let after = fit.predict(&bench.train);
         let weakest = (0..fit.effects.len())
@@ -25,7 +30,8 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
                 let less = refit(&bench.train, &fit, others);
                 let (value, interval) = ratio(bench, &less.predict(&bench.train), &after);
                 let prospect = Prospect::of(bench, &less, &fit);
-                let upper = match prospect.dominates() && prospect.fitted > substantial {
+                let telling = prospect.dominates() && prospect.fitted > substantial;
+                let upper = match telling || noise_alone && prospect.is_certain() {
                     true => 0.0,
                     false => interval.map_or(value, |(_, upper)| upper),
                 };
@@ -43,6 +49,9 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
         baseline.clone()
     }
 }
+
+/// Standard deviations that count as certain.
+const CERTAIN: f64 = 3.0;
 
 /// Difference that two models make on held-out samples, in noise variances, below which those
 /// samples cannot tell them apart: right and wrong differ by twice it, with four standard deviations
@@ -62,6 +71,20 @@ pub fn beyond_unseen(bench: &Bench, fit: &Fit) -> f64 {
         beyond += weight * (error.powi(2) - bench.noise[k].deviation.powi(2));
     });
     beyond
+}
+
+/// Squared error of held-out samples beyond what noise alone leaves, its scatter included.
+pub fn unseen_beyond_scatter(bench: &Bench, fit: &Fit) -> f64 {
+    beyond_unseen(bench, fit) - scatter(unseen_rows(bench))
+}
+
+/// Held-out samples, neighbours that vary together as fewer.
+pub fn unseen_rows(bench: &Bench) -> f64 {
+    let mut rows = 0.0;
+    each_unseen(bench, |k, _, _, weight| {
+        rows += weight * bench.noise[k].deviation.powi(2);
+    });
+    rows
 }
 
 /// Every held-out sample: its record and index, the measured value, and what its square weighs in noise
@@ -120,6 +143,12 @@ impl Prospect {
     /// unless it takes most of the misfit away.
     pub fn holds(&self) -> bool {
         self.held_out > 0.0 || self.difference < TELLING || self.dominates()
+    }
+
+    /// True where held-out samples show the set to be better, beyond what their noise may do: the squared errors of
+    /// two models that differ by d vary by 2 |d|.
+    pub fn is_certain(&self) -> bool {
+        self.held_out > CERTAIN * 2.0 * self.difference.sqrt()
     }
 
     /// True where the set takes most of the misfit beyond noise away, held-out samples included.
