@@ -18,10 +18,10 @@ use crate::record::noise::independence;
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     let beyond = baseline.misfit - bench.train.rows() as f64;
     let substantial = SUBSTANTIAL * beyond;
-    // Of a set that leaves noise alone nothing but noise makes a gain by chance.
-    let noise_alone =
-        beyond_scatter(&bench.train, &fit) <= 0.0 && unseen_beyond_scatter(bench, &fit) <= 0.0;
     while fit.effects.len() > 1 {
+        // Of a set that leaves noise alone nothing but noise makes a gain by chance.
+        let noise_alone =
+            beyond_scatter(&bench.train, &fit) <= 0.0 && unseen_beyond_scatter(bench, &fit) <= 0.0;
         let after = fit.predict(&bench.train);
         let weakest = (0..fit.effects.len())
             .map(|place| {

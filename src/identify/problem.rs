@@ -154,8 +154,8 @@ impl Problem {
     /// Marches through record `k`; `each` sees every accepted step of the final pass, `None` at the
     /// peaks between samples.
     ///
-    /// An effect on the input's own channel needs the truth to be corrected. What a sensor adds to the
-    /// displacement follows from that alone, see [`undone`]; a mass that the load cell reads is marched with the
+    /// An effect on the input's own channel needs the truth to be corrected. What a sensor does to the
+    /// displacement follows from that alone, see [`true_input`]; a mass that the load cell reads is marched with the
     /// joint; for what else it adds the pass is repeated from the truth of the one before it: the correction is
     /// small against the input and the repetition contracts.
     pub fn pass(
@@ -175,7 +175,6 @@ impl Problem {
         mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> Prediction {
         let record = &self.records[k];
-
         let input_place = match self.operators.form {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
