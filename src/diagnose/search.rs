@@ -73,7 +73,7 @@ pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
 }
 
 /// Parts of a step in which a mass that was found moves with the joint.
-const HAULING: u32 = 2;
+const HAULING: u32 = 4;
 
 /// The set on a bench that marches in shorter steps, where it has a mass that they suit better.
 fn finely(bench: &mut Bench, best: Fit) -> Fit {
@@ -81,12 +81,13 @@ fn finely(bench: &mut Bench, best: Fit) -> Fit {
     if !best.effects.iter().any(hauls) {
         return best;
     }
+    let coarse = bench.train.hauling;
     bench.haul_in(HAULING);
     let finer = refit(&bench.train, &best, best.effects.clone());
     if finer.misfit < best.misfit {
         return finer;
     }
-    bench.haul_in(1);
+    bench.haul_in(coarse);
     best
 }
 

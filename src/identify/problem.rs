@@ -102,7 +102,7 @@ pub struct Problem {
     pub operators: Operators,
     /// The records.
     pub records: Vec<Prepared>,
-    /// Parts of every step in which a mass moves with the joint: one is enough to find it.
+    /// Parts of every step in which a mass moves with the joint: few are enough to find it.
     pub hauling: u32,
 }
 
@@ -142,7 +142,7 @@ impl Problem {
         Problem {
             operators: Operators::grid(form, range),
             records,
-            hauling: 1,
+            hauling: 2,
         }
     }
 

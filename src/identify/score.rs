@@ -141,6 +141,9 @@ fn one(acting: &Acting, common: &Normal, free: &[usize], cross: &[f64], own: (f6
     for (value, parameter) in scaled.values.iter_mut().zip(acting.effect.parameters()) {
         if let Some(zero) = parameter.vanishes_at {
             let wanted = zero + size * (*value - zero);
+            // A mass is begun no smaller than its start.
+            let least = acting.effect.inertia(&acting.values);
+            let wanted = least.map_or(wanted, |mass| wanted.max(mass));
             *value = wanted.clamp(parameter.lower, parameter.upper);
             if *value == zero {
                 return nothing;
