@@ -124,17 +124,20 @@ impl Grow<'_> {
         current
     }
 
-    /// True where a set leaves structure, on held-out samples as well, and more than the laws of the right causes
+    /// True where a set leaves structure, be it on held-out samples, and more than the laws of the right causes
     /// may be wrong by.
     fn leaves_another(&self, baseline: &Fit, best: &Fit) -> bool {
-        let problem = &self.bench.train;
-        let wrong_by = |baseline: f64| NEARLY * baseline;
-        let seen = leaves_structure(problem, best)
-            && places::beyond_scatter(problem, best)
-                > wrong_by(baseline.misfit - problem.rows() as f64);
-        let left = unseen_beyond_scatter(self.bench, best);
-        seen || left > wrong_by(beyond_unseen(self.bench, baseline))
-            && left > STRUCTURE * unseen_rows(self.bench)
+        let (problem, bench) = (&self.bench.train, self.bench);
+        let rows = problem.rows() as f64;
+        let seen = || {
+            leaves_structure(problem, best)
+                && places::beyond_scatter(problem, best) > NEARLY * (baseline.misfit - rows)
+        };
+        let unseen = || {
+            let left = unseen_beyond_scatter(bench, best);
+            left > STRUCTURE * unseen_rows(bench) && left > NEARLY * beyond_unseen(bench, baseline)
+        };
+        seen() || unseen()
     }
 
     /// The best pair that begins with another cause than the set began with, if it is better than the set. Of the

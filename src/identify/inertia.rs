@@ -41,6 +41,11 @@ impl Stride {
         }
     }
 
+    /// True where the mass takes part.
+    fn hauls(&self) -> bool {
+        self.started && self.length > 0.0
+    }
+
     /// Acceleration that the mass is moved with, `(1 − α) a' + α a` \[m/s²\].
     fn weighted(before: Motion, end: Motion) -> f64 {
         (1.0 - ALPHA) * end[2] + ALPHA * before[2]
@@ -56,6 +61,7 @@ pub(super) struct Inertia {
     /// Of all effects together \[kg\].
     mass: f64,
     last: Motion,
+    /// Steps so far that took time.
     passed: usize,
     /// Parts of a sample's step that it is marched in.
     pub parts: u32,
@@ -68,8 +74,13 @@ pub(super) struct Hauled {
     pub force: f64,
     /// Its derivative by the displacement at the end of the step \[N/m\].
     pub slope: f64,
-    /// Its derivatives by the motion before it.
-    pub carried: Motion,
+}
+
+/// What a step that was taken carries on to later ones.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Carried {
+    /// Derivatives of m Ü by the motion before the step.
+    pub by_motion: Motion,
     /// The step.
     pub stride: Stride,
 }
@@ -92,34 +103,41 @@ impl Inertia {
 
     /// m Ü at a displacement at the end of a step.
     pub fn at(&self, length: f64, displacement: f64) -> Hauled {
-        let stride = Stride {
-            length,
-            started: self.passed > BEGINNING,
-        };
-        if !self.acts() || !stride.started || length <= 0.0 {
-            return Hauled {
-                stride,
-                ..Hauled::default()
-            };
-        }
-        let force =
-            |before: Motion, u: f64| self.mass * Stride::weighted(before, stride.end(before, u));
-        Hauled {
-            force: force(self.last, displacement),
-            slope: force([0.0; 3], 1.0),
-            carried: [
-                force([1.0, 0.0, 0.0], 0.0),
-                force([0.0, 1.0, 0.0], 0.0),
-                force([0.0, 0.0, 1.0], 0.0),
-            ],
-            stride,
+        let stride = self.stride(length);
+        match self.acts() && stride.hauls() {
+            true => Hauled {
+                force: self.force(stride, self.last, displacement),
+                slope: self.force(stride, [0.0; 3], 1.0),
+            },
+            false => Hauled::default(),
         }
     }
 
     /// Takes a step that ends at a displacement.
-    pub fn passed(&mut self, stride: Stride, displacement: f64) {
+    pub fn take(&mut self, length: f64, displacement: f64) -> Carried {
+        if !self.acts() {
+            return Carried::default();
+        }
+        let stride = self.stride(length);
         self.last = stride.end(self.last, displacement);
-        self.passed += 1;
+        self.passed += usize::from(length > 0.0);
+        let by_motion = match stride.hauls() {
+            true => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+                .map(|unit| self.force(stride, unit, 0.0)),
+            false => Motion::default(),
+        };
+        Carried { by_motion, stride }
+    }
+
+    fn stride(&self, length: f64) -> Stride {
+        Stride {
+            length,
+            started: self.passed >= BEGINNING,
+        }
+    }
+
+    fn force(&self, stride: Stride, before: Motion, displacement: f64) -> f64 {
+        self.mass * Stride::weighted(before, stride.end(before, displacement))
     }
 }
 
@@ -164,7 +182,7 @@ pub(super) mod tests {
             let t = i as f64 / steps_per_radian;
             let length = if i == 0 { 0.0 } else { 1.0 / steps_per_radian };
             let hauled = inertia.at(length, t.sin());
-            inertia.passed(hauled.stride, t.sin());
+            inertia.take(length, t.sin());
             if t > 1.0 {
                 worst = worst.max((hauled.force / 3.0 + t.sin()).abs());
             }
@@ -183,13 +201,11 @@ pub(super) mod tests {
     fn it_is_linear_in_motion_and_displacement() {
         let mut inertia = of(5.0);
         for (i, u) in [0.3, 0.5, 0.4, 0.9, 0.2, 0.8].into_iter().enumerate() {
-            let length = [0.0, 0.1, 0.1, 0.1, 0.2, 0.05][i];
-            let hauled = inertia.at(length, u);
-            inertia.passed(hauled.stride, u);
+            inertia.take([0.0, 0.1, 0.1, 0.1, 0.2, 0.05][i], u);
         }
         let hauled = inertia.at(0.1, 0.7);
         let [u, v, a] = inertia.last;
-        let [by_u, by_v, by_a] = hauled.carried;
+        let [by_u, by_v, by_a] = inertia.take(0.1, 0.7).by_motion;
         let sum = 0.7 * hauled.slope + u * by_u + v * by_v + a * by_a;
         assert!(hauled.force.abs() > 1.0);
         assert!((sum / hauled.force - 1.0).abs() < 1e-12);
@@ -198,12 +214,17 @@ pub(super) mod tests {
     #[test]
     fn what_the_steps_do_not_resolve_dies_and_a_beginning_in_motion_is_none() {
         let mut inertia = of(1.0);
+        // Loads before the record take no time.
+        for turned in [3.0, -2.0, 4.0, -1.0] {
+            inertia.take(0.0, turned);
+        }
         // In motion from the first sample, a corner at the eighth.
         let course = |i: usize| (i as f64).min(8.0);
         let force: Vec<f64> = (0..30)
             .map(|i| {
-                let hauled = inertia.at(if i == 0 { 0.0 } else { 1.0 }, course(i));
-                inertia.passed(hauled.stride, course(i));
+                let length = if i == 0 { 0.0 } else { 1.0 };
+                let hauled = inertia.at(length, course(i));
+                inertia.take(length, course(i));
                 hauled.force
             })
             .collect();

@@ -3,7 +3,7 @@
 //! cannot disagree.
 
 use super::bracket::Bracket;
-use super::inertia::{Hauled, Inertia};
+use super::inertia::{Carried, Inertia};
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation, Trajectory};
@@ -41,7 +41,7 @@ pub struct Step {
     /// displacement carries a change of the model on to later samples.
     pub carried: [f64; 2],
     /// What a mass does in the step; its derivatives by the motion before are those of the displacement.
-    pub(super) hauled: Hauled,
+    pub(super) hauled: Carried,
 }
 
 /// Error of a step's equation, as a share of its input, that counts as none: a derivative by
@@ -325,16 +325,16 @@ impl<'a> March<'a> {
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 self.share = share;
                 self.applied = force;
-                self.inertia.passed(hauled.stride, displacement);
+                let taken = self.inertia.take(step, displacement);
                 self.accept(time, step, answer);
                 return Step {
                     force: force - hauled.force,
                     displacement,
                     share,
                     carried: carried.map(|c| c * displacement_slope * share),
-                    hauled: Hauled {
-                        carried: hauled.carried.map(|c| -c * displacement_slope * share),
-                        ..hauled
+                    hauled: Carried {
+                        by_motion: taken.by_motion.map(|c| -c * displacement_slope * share),
+                        ..taken
                     },
                 };
             }

@@ -102,7 +102,7 @@ pub struct Problem {
     pub operators: Operators,
     /// The records.
     pub records: Vec<Prepared>,
-    /// Parts of every step in which a mass moves with the joint: few are enough to find it.
+    /// Parts of every step in which a mass moves with the joint.
     pub hauling: u32,
 }
 
@@ -142,7 +142,7 @@ impl Problem {
         Problem {
             operators: Operators::grid(form, range),
             records,
-            hauling: 2,
+            hauling: HAULING,
         }
     }
 
@@ -339,5 +339,57 @@ impl Problem {
     }
 }
 
+/// Parts of a step in which a mass is looked for: in whole steps it answers too early what shows in single samples.
+const HAULING: u32 = 2;
+
 /// Passes through a record whose input is corrected by what the march gives.
 const ROUNDS: usize = 3;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::joint::effect::Effect;
+    use crate::joint::parameters::Parameter;
+
+    /// A load cell that reads too much.
+    struct Gain;
+
+    impl Effect for Gain {
+        fn name(&self) -> &'static str {
+            "gain"
+        }
+        fn place(&self) -> Place {
+            Place::ForceChannel
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+            truth.force.iter().map(|force| values[0] * force).collect()
+        }
+    }
+
+    /// No cause of the catalogue needs the repeated pass; an effect at that place may.
+    #[test]
+    fn what_a_load_cell_adds_is_taken_off_the_force_that_drives() {
+        let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            name: "gain".to_string(),
+            displacement: vec![0.0; force.len()],
+            force: force.clone(),
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Play, &[record]);
+        let mut coefficients = vec![0.0; problem.operators.columns()];
+        coefficients[0] = 2.0;
+        let gain = Acting {
+            effect: &Gain,
+            values: vec![0.1],
+        };
+        let predicted = &problem.predict(&coefficients, &[gain])[0];
+        for (judged, force) in predicted.judged.iter().zip(&force) {
+            // Three passes leave the cube of what is added.
+            assert!((judged - 2.0 * force / 1.1).abs() < 2.1e-3);
+        }
+    }
+}
