@@ -41,6 +41,10 @@ impl Effect for PreloadLoss {
     fn memory(&self) -> usize {
         PATH_MEMORY
     }
+    /// The path.
+    fn lasting(&self) -> usize {
+        1
+    }
     fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
         follow_path(now, memory);
     }

@@ -66,6 +66,10 @@ impl Effect for SlackGrowth {
     fn memory(&self) -> usize {
         1
     }
+    /// All of it.
+    fn lasting(&self) -> usize {
+        1
+    }
     fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
         memory[0] = now.force.abs().max(memory[0]);
     }

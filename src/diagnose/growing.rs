@@ -1,5 +1,6 @@
 //! Sets of causes, grown forward from the baseline and from other first causes, and pruned backward.
 
+use super::gridded::stays_on_a_finer_grid;
 use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
@@ -85,6 +86,7 @@ impl Grow<'_> {
             Effort::Quick => promising.next(),
             Effort::Full => promising
                 .take(PREDICTORS)
+                .filter(|t| stays_on_a_finer_grid(&self.bench.train, current, (t.evidence, &t.fit)))
                 .map(|t| (t, Prospect::of(self.bench, current, &t.fit)))
                 .filter(|(_, prospect)| prospect.holds())
                 .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))

@@ -1,9 +1,11 @@
-//! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint.
+//! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint, or with a
+//! worn one.
 
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::{Bench, prepare};
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, dispersion};
+use super::trials::{ALARM, Effort, dispersion, trials_of};
+use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, at_zero, beginnings, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit};
 use crate::joint::effect::Acting;
@@ -68,7 +70,19 @@ pub fn investigated(
     let order = all.iter().map(unlikely).enumerate();
     let likeliest = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
     let likeliest = likeliest.map_or(0, |(i, _)| i);
-    all.swap_remove(likeliest)
+    let anew = all.swap_remove(likeliest);
+    if !anew.may_wear_on() {
+        return anew;
+    }
+    progress("once more: wear may go on from record to record");
+    let mut bench = anew.bench.clone();
+    bench.wear_on();
+    let on = searched(bench, anew.found.baseline.clone(), timed, progress).sharpened();
+    let scale = of(&anew).min(of(&on));
+    match on.unlikeliness(scale) < anew.unlikeliness(scale) {
+        true => on,
+        false => anew,
+    }
 }
 
 /// What is found from the baseline of the records as they are weighed.
@@ -128,6 +142,36 @@ impl Investigation {
             || best.effects.len() > 1 && (0..best.effects.len()).any(fewer)
     }
 
+    /// True where wear that goes on from record to record explains what wear of joints made new between them does
+    /// not, beside the causes that were found or alone.
+    fn may_wear_on(&self) -> bool {
+        let train = &self.bench.train;
+        let best = &self.found.best;
+        let lasts = |a: &Acting| a.effect.lasting() > 0;
+        let wears = best.effects.iter().any(lasts);
+        if train.records.len() < 2 || !(wears || leaves_structure(train, best)) {
+            return false;
+        }
+        let mut on = train.clone();
+        on.wears_on = true;
+        let margin = ALARM * dispersion(train, best);
+        if wears && refit(&on, best, best.effects.clone()).misfit < best.misfit - margin {
+            return true;
+        }
+        let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
+        let baseline = &self.found.baseline;
+        let scale = &self.bench.scale;
+        let tried = (Effort::Full, f64::INFINITY);
+        let trials = trials_of(wearing, &on, scale, baseline, tried);
+        trials.iter().any(|on| {
+            let mut anew = self.found.trials.iter();
+            let anew = anew.find(|t| t.cause.name() == on.cause.name());
+            let anew = anew.map_or(baseline.misfit, |t| t.fit.misfit);
+            let beyond = baseline.misfit - train.rows() as f64;
+            on.fit.misfit < anew - margin.max(FURTHER_SHARE * beyond)
+        })
+    }
+
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what
     /// was found, and everything refitted to both.
     fn sharpened(mut self) -> Investigation {
@@ -158,12 +202,14 @@ impl Investigation {
             return;
         }
         let left = |beginning: &Beginning| {
+            // A worn joint is worn by what came before.
+            let before = if train.wears_on { 0 } else { k };
             let mut one = Problem {
                 operators: train.operators.clone(),
-                records: vec![train.records[k].clone()],
-                hauling: train.hauling,
+                records: train.records[before..=k].to_vec(),
+                ..*train
             };
-            one.records[0].beginning.clone_from(beginning);
+            one.records[k - before].beginning.clone_from(beginning);
             one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
         };
         let (_, sharp) = sharpened(begun, left);
@@ -173,7 +219,8 @@ impl Investigation {
     }
 
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
-    /// every value that the model chose: those of its causes, and of beginnings that are not a virgin joint's.
+    /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
+    /// whether wear goes on.
     fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
@@ -181,7 +228,7 @@ impl Investigation {
         let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
         let of_causes: usize = self.found.best.effects.iter().map(|a| a.values.len()).sum();
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
-        let values = (of_causes + of_beginnings) as f64;
+        let values = (of_causes + of_beginnings + usize::from(train.wears_on)) as f64;
         innovations + misfit / dispersion + values * (train.rows().max(3) as f64).ln()
     }
 }

@@ -6,6 +6,7 @@ mod curves;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
+mod gridded;
 mod growing;
 pub mod intervals;
 mod investigation;

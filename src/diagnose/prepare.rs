@@ -139,6 +139,12 @@ impl Bench {
         self.train.hauling = parts;
     }
 
+    /// Takes the records from now on for tests of a joint one after the other, which wears on from each to the next.
+    pub fn wear_on(&mut self) {
+        self.whole.wears_on = true;
+        self.train.wears_on = true;
+    }
+
     /// True for a sample that no fit has seen and that is a witness.
     pub fn is_unseen(&self, record: usize, sample: usize) -> bool {
         self.held[record][sample] && self.whole.records[record].counts(sample)

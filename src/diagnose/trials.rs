@@ -89,7 +89,19 @@ pub fn trials(
     current: &Fit,
     (effort, wanted): (Effort, f64),
 ) -> Vec<Trial> {
-    let mut scored = scored(problem, scale, timed, current);
+    let usable = |c: &dyn Cause| timed || !c.needs_time();
+    trials_of(usable, problem, scale, current, (effort, wanted))
+}
+
+/// The same of the causes that are `usable` alone.
+pub fn trials_of(
+    usable: impl Fn(&dyn Cause) -> bool,
+    problem: &Problem,
+    scale: &Scale,
+    current: &Fit,
+    (effort, wanted): (Effort, f64),
+) -> Vec<Trial> {
+    let mut scored = scored(usable, problem, scale, current);
     let first = |s: &Scored| s.1.first().map_or(0.0, |s| s.fall);
     scored.sort_by(|a, b| first(b).total_cmp(&first(a)));
     let highest = scored.first().map_or(0.0, first);
@@ -160,11 +172,16 @@ pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
 type Scored = (&'static dyn Cause, Vec<Score>);
 
 /// Every usable cause with the scores of its shapes, best first.
-fn scored(problem: &Problem, scale: &Scale, timed: bool, current: &Fit) -> Vec<Scored> {
+fn scored(
+    usable: impl Fn(&dyn Cause) -> bool,
+    problem: &Problem,
+    scale: &Scale,
+    current: &Fit,
+) -> Vec<Scored> {
     let usable: Vec<&'static dyn Cause> = CATALOGUE
         .iter()
         .copied()
-        .filter(|c| timed || !c.needs_time())
+        .filter(|c| usable(*c))
         .filter(|c| !current.effects.iter().any(|a| a.effect.name() == c.name()))
         .collect();
     let starts: Vec<Acting> = usable

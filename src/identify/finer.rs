@@ -19,7 +19,7 @@ pub fn finer(problem: &Problem, coefficients: &[f64]) -> (Problem, Vec<f64>) {
     let finer = Problem {
         operators: Operators::with_edges(problem.operators.form, halved),
         records: problem.records.clone(),
-        hauling: problem.hauling,
+        ..*problem
     };
     (finer, shared)
 }

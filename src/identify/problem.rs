@@ -1,7 +1,7 @@
 //! Records prepared for identification: one judged channel, weights, whitening, one common grid.
 
 use super::beginning::Beginning;
-use super::march::{Cells, March, Step, added};
+use super::march::{Cells, March, Step, Wear, added};
 use super::operators::{Form, Operators};
 use super::undone::{corrected, true_input};
 use super::walk::walk;
@@ -104,6 +104,9 @@ pub struct Problem {
     pub records: Vec<Prepared>,
     /// Parts of every step in which a mass moves with the joint.
     pub hauling: u32,
+    /// True where the records are tests of a joint one after the other, which wears on from each to the next; false
+    /// where it was made new between them.
+    pub wears_on: bool,
 }
 
 /// Prediction of one record by one model, without the record's offset.
@@ -143,6 +146,7 @@ impl Problem {
             operators: Operators::grid(form, range),
             records,
             hauling: HAULING,
+            wears_on: false,
         }
     }
 
@@ -165,15 +169,33 @@ impl Problem {
         effects: &[Acting],
         each: impl FnMut(Option<usize>, &March, Step),
     ) -> Prediction {
-        self.marched(k, (coefficients, effects, Cells::All), each)
+        let wear = self.wear_before(k, (coefficients, effects, Cells::All));
+        let (prediction, _) = self.marched(k, (coefficients, effects, Cells::All), &wear, each);
+        prediction
+    }
+
+    /// True where an effect of a record depends on what the records before it were.
+    fn follows_records(&self, effects: &[Acting]) -> bool {
+        self.wears_on && effects.iter().any(|a| a.effect.lasting() > 0)
+    }
+
+    fn wear_before(&self, k: usize, model: (&[f64], &[Acting], Cells)) -> Wear {
+        let before = match self.follows_records(model.1) {
+            true => 0..k,
+            false => 0..0,
+        };
+        before.fold(Wear::default(), |wear, earlier| {
+            self.marched(earlier, model, &wear, |_, _, _| {}).1
+        })
     }
 
     fn marched(
         &self,
         k: usize,
         (coefficients, effects, cells): (&[f64], &[Acting], Cells),
+        wear: &Wear,
         mut each: impl FnMut(Option<usize>, &March, Step),
-    ) -> Prediction {
+    ) -> (Prediction, Wear) {
         let record = &self.records[k];
         let input_place = match self.operators.form {
             Form::Play => Place::ForceChannel,
@@ -197,6 +219,7 @@ impl Problem {
             (false, Form::Play) => ROUNDS,
             _ => 1,
         };
+        let mut worn = Wear::default();
         let as_read = (rounds > 1).then(|| (input.clone(), between.clone()));
         for round in 0..rounds {
             let mut march = March::new(
@@ -204,7 +227,8 @@ impl Problem {
                 coefficients,
                 effects,
                 (cells, self.hauling),
-            );
+            )
+            .worn(wear);
             walk(record, (&input, &between), &mut march, |i, march, step| {
                 if let Some(i) = i {
                     truth.force[i] = step.force;
@@ -214,6 +238,7 @@ impl Problem {
                     each(i, march, step);
                 }
             });
+            worn = march.wear();
             if round + 1 < rounds
                 && let Some(added) = added(&correcting, input_place, &truth)
                 && let Some((read, turned)) = &as_read
@@ -222,15 +247,24 @@ impl Problem {
             }
         }
         let judged = self.judged(&truth, effects);
-        Prediction { judged, truth }
+        (Prediction { judged, truth }, worn)
     }
 
     /// Predictions of every record.
     pub fn predict(&self, coefficients: &[f64], effects: &[Acting]) -> Vec<Prediction> {
-        (0..self.records.len())
-            .into_par_iter()
-            .map(|k| self.marched(k, (coefficients, effects, Cells::Weighted), |_, _, _| {}))
-            .collect()
+        let model = (coefficients, effects, Cells::Weighted);
+        let march = |k: usize, wear: &Wear| self.marched(k, model, wear, |_, _, _| {});
+        let records = 0..self.records.len();
+        if self.follows_records(effects) {
+            let next = |wear: &mut Wear, k: usize| {
+                let (prediction, worn) = march(k, wear);
+                *wear = worn;
+                Some(prediction)
+            };
+            return records.scan(Wear::default(), next).collect();
+        }
+        let each = records.into_par_iter();
+        each.map(|k| march(k, &Wear::default()).0).collect()
     }
 
     /// The channel of a form that is judged, as a place where effects act.
@@ -348,7 +382,7 @@ const ROUNDS: usize = 3;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::joint::effect::Effect;
+    use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
 
     /// A load cell that reads too much.
@@ -366,6 +400,74 @@ mod tests {
         }
         fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
             truth.force.iter().map(|force| values[0] * force).collect()
+        }
+    }
+
+    /// Limits that fall with time, by as much as if some had passed before.
+    struct Wearing;
+
+    impl Effect for Wearing {
+        fn name(&self) -> &'static str {
+            "wearing"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn memory(&self) -> usize {
+            1
+        }
+        fn lasting(&self) -> usize {
+            1
+        }
+        fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+            memory[0] += now.step;
+        }
+        fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
+            let limit = 1.0 - 1e-3 * (values[0] + memory[0]);
+            SlipLimit {
+                positive: limit,
+                negative: limit,
+            }
+        }
+    }
+
+    #[test]
+    fn a_record_begins_as_worn_as_those_before_it_left_the_joint() {
+        let force: Vec<f64> = (0..150).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            name: "worn".to_string(),
+            displacement: vec![0.0; force.len()],
+            force,
+            ..Record::default()
+        };
+        let mut problem = Problem::new(Form::Play, &[record.clone(), record.clone(), record]);
+        let mut coefficients = vec![0.0; problem.operators.columns()];
+        (coefficients[0], coefficients[20], coefficients[30]) = (1.0, 2.0, 3.0);
+        let from = |passed: f64| {
+            [Acting {
+                effect: &Wearing,
+                values: vec![passed],
+            }]
+        };
+        let made_new = |k: usize, passed: f64| {
+            let all = problem.predict(&coefficients, &from(passed));
+            all[k].judged.clone()
+        };
+        let expected = [made_new(0, 0.0), made_new(1, 149.0), made_new(2, 298.0)];
+        let differ = |one: &[f64], other: &[f64]| {
+            let both = one.iter().zip(other);
+            both.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()))
+        };
+        assert!(differ(&expected[1], &expected[0]) > 0.1);
+        problem.wears_on = true;
+        let predicted = problem.predict(&coefficients, &from(0.0));
+        for (k, (predicted, expected)) in predicted.iter().zip(&expected).enumerate() {
+            assert!(differ(&predicted.judged, expected) < 1e-12, "{k}");
+            let passed = problem.pass(k, &coefficients, &from(0.0), |_, _, _| {});
+            assert!(differ(&passed.judged, expected) < 1e-12, "{k}");
         }
     }
 

@@ -149,6 +149,10 @@ pub trait Effect: Send + Sync {
     fn memory(&self) -> usize {
         0
     }
+    /// Count of the first numbers of its history that last where the joint is at rest and a new record begins: wear.
+    fn lasting(&self) -> usize {
+        0
+    }
     /// Takes an accepted sample into the history.
     fn remember(&self, _values: &[f64], _now: &Situation, _memory: &mut [f64]) {}
     /// [`Place::SlipLimit`]: multipliers from the last accepted situation and the history.

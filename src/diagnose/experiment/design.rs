@@ -285,7 +285,7 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
     let program = Problem {
         operators: problem.operators.clone(),
         records: vec![record],
-        hauling: problem.hauling,
+        ..*problem
     };
     (program, count as f64)
 }

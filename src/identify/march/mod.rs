@@ -2,7 +2,10 @@
 //! sample. The judged channel it predicts is the simulation, so identification and simulation
 //! cannot disagree.
 
-use super::bracket::Bracket;
+mod by_displacement;
+mod by_force;
+mod places;
+
 use super::inertia::{Carried, Inertia};
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
@@ -17,10 +20,8 @@ pub struct March<'a> {
     memories: Vec<Vec<f64>>,
     last: Situation,
     earlier: Option<(f64, f64)>,
-    /// Share of the last step: where the next one's root is looked for first.
-    share: f64,
-    /// Force at the last step's end, all that is beside the joint included.
-    applied: f64,
+    /// Of the network at the end of the last step, from where the next one's root is looked for.
+    tangent: f64,
     limits: (f64, f64),
     /// Where force drives: where the displacement does, its acceleration is measured.
     inertia: Inertia,
@@ -44,12 +45,18 @@ pub struct Step {
     pub(super) hauled: Carried,
 }
 
+/// What lasts of a joint's work when a record ends: none of it where every record is of a joint made new.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Wear {
+    /// Energy dissipated by the network \[J\].
+    dissipation: f64,
+    /// Of the history of every effect what [`lasts`](crate::joint::effect::Effect::lasting).
+    memories: Vec<Vec<f64>>,
+}
+
 /// Error of a step's equation, as a share of its input, that counts as none: a derivative by
 /// differences of a ten-thousandth is good to a part in a million of it, even for small effects.
 const PRECISE: f64 = 1e-13;
-
-/// Rounding of a difference of displacements, as a share of one.
-const ROUNDED: f64 = 1e-15;
 
 /// Trials after which a step takes what it has.
 const MOST_TRIALS: usize = 60;
@@ -75,6 +82,7 @@ impl<'a> March<'a> {
         effects: &'a [Acting],
         (cells, parts): (Cells, u32),
     ) -> Self {
+        let elastic = coefficients[0];
         let mut has = [false; 7];
         for acting in effects {
             has[index(acting.effect.place())] = true;
@@ -95,7 +103,7 @@ impl<'a> March<'a> {
         let bank = bank.sticking(sticking);
         March {
             operators,
-            elastic: coefficients[0],
+            elastic,
             bank,
             effects,
             memories: effects
@@ -104,8 +112,7 @@ impl<'a> March<'a> {
                 .collect(),
             last: Situation::default(),
             earlier: None,
-            share: 1.0,
-            applied: 0.0,
+            tangent: elastic,
             limits: (1.0, 1.0),
             inertia: match operators.form {
                 Form::Play => Inertia::of(effects, parts),
@@ -154,88 +161,6 @@ impl<'a> March<'a> {
         self.last.force - self.beside_slip(self.last.slip).0
     }
 
-    fn beside_slip(&self, slip: f64) -> (f64, f64) {
-        if !self.has[index(Place::BesideSlip)] {
-            return (0.0, 0.0);
-        }
-        let mut sum = (0.0, 0.0);
-        for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            if acting.effect.place() == Place::BesideSlip {
-                let response = acting.effect.beside_slip(&acting.values, slip, memory);
-                sum = (sum.0 + response.value, sum.1 + response.slope);
-            }
-        }
-        sum
-    }
-
-    fn in_path(&self, force: f64, step: f64) -> (f64, f64) {
-        if !self.has[index(Place::Spring)] && !self.has[index(Place::InSeries)] {
-            return (0.0, 0.0);
-        }
-        let mut sum = (0.0, 0.0);
-        for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            let response = match acting.effect.place() {
-                Place::Spring => acting.effect.spring(&acting.values, force),
-                Place::InSeries => acting.effect.in_series(&acting.values, force, step, memory),
-                _ => continue,
-            };
-            sum = (sum.0 + response.value, sum.1 + response.slope);
-        }
-        sum
-    }
-
-    /// Force beside the joint and its slope d/dU at the end of a step.
-    fn beside_joint(&self, displacement: f64, step: f64) -> (f64, f64, f64) {
-        if !self.has[index(Place::BesideJoint)] {
-            return (0.0, 0.0, 0.0);
-        }
-        let (velocity, [per_displacement, ..]) = self.velocity(displacement, step);
-        let mut sum = (0.0, 0.0);
-        for acting in self.effects {
-            if acting.effect.place() == Place::BesideJoint {
-                let response = acting
-                    .effect
-                    .beside_joint(&acting.values, displacement, velocity);
-                sum = (
-                    sum.0 + response.value,
-                    sum.1 + response.slope + response.damping * per_displacement,
-                );
-            }
-        }
-        (sum.0, sum.1, velocity)
-    }
-
-    /// Backward difference of second order where two earlier samples are known; also d rate / dU,
-    /// for this sample and the two before it.
-    fn velocity(&self, displacement: f64, step: f64) -> (f64, [f64; 3]) {
-        if step <= 0.0 {
-            return (self.last.velocity, [0.0; 3]);
-        }
-        let first = (displacement - self.last.displacement) / step;
-        match self.earlier {
-            Some((before, length)) if length > 0.0 => {
-                let previous = (self.last.displacement - before) / length;
-                let weight = step / (step + length);
-                let (own, oldest) = ((1.0 + weight) / step, weight / length);
-                let rate = first + weight * (first - previous);
-                (rate, [own, -own - oldest, oldest])
-            }
-            _ => (first, [1.0 / step, -1.0 / step, 0.0]),
-        }
-    }
-
-    /// −d force beside the joint / d earlier displacements, from its slope at this sample.
-    fn carried(&self, displacement: f64, step: f64, across_slope: f64) -> [f64; 2] {
-        if across_slope == 0.0 {
-            return [0.0; 2];
-        }
-        let (_, [own, before, oldest]) = self.velocity(displacement, step);
-        match own > 0.0 {
-            true => [-across_slope * before / own, -across_slope * oldest / own],
-            false => [0.0; 2],
-        }
-    }
-
     /// Network output for a trial input, its tangent, the operators' trial positions.
     fn network(&mut self, input: f64) -> (f64, f64) {
         let (output, tangent) = match self.operators.form {
@@ -262,12 +187,33 @@ impl<'a> March<'a> {
     /// Takes the joint through loads before the first sample: it remembers where they turned, and nothing else
     /// that effects keep; no work is counted.
     pub(super) fn precede(&mut self, time: f64, turned: &[f64]) {
+        let (memories, dissipation) = (self.memories.clone(), self.last.dissipation);
         for &input in turned {
             self.step(time, 0.0, input);
         }
-        self.memories.iter_mut().for_each(|m| m.fill(0.0));
+        self.memories = memories;
         self.earlier = None;
-        self.last.dissipation = 0.0;
+        self.last.dissipation = dissipation;
+    }
+
+    /// Wear at the end of the last step.
+    pub(super) fn wear(&self) -> Wear {
+        let both = self.effects.iter().zip(&self.memories);
+        Wear {
+            dissipation: self.last.dissipation,
+            memories: both
+                .map(|(a, memory)| memory[..a.effect.lasting()].to_vec())
+                .collect(),
+        }
+    }
+
+    /// A joint at rest that is worn so far.
+    pub(super) fn worn(mut self, wear: &Wear) -> Self {
+        self.last.dissipation = wear.dissipation;
+        for (memory, lasted) in self.memories.iter_mut().zip(&wear.memories) {
+            memory[..lasted.len()].copy_from_slice(lasted);
+        }
+        self
     }
 
     /// True where a mass moves with the joint.
@@ -292,91 +238,6 @@ impl<'a> March<'a> {
             }
         }
         self.limits = limits;
-    }
-
-    fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
-        let parallel = self.has[index(Place::BesideSlip)] || self.carries();
-        let mut trial = if parallel {
-            self.network_force() + self.share * (force - self.applied)
-        } else {
-            force
-        };
-        let precise = PRECISE * force.abs().max(0.1 * self.range());
-        let mut bracket = Bracket::new();
-        let mut answer;
-        let mut round = 0;
-        loop {
-            let (slip, tangent) = self.network(trial);
-            let (beside, beside_slope) = self.beside_slip(slip);
-            let joint_force = trial + beside;
-            let joint_slope = 1.0 + beside_slope * tangent;
-            let (path, path_slope) = self.in_path(joint_force, step);
-            let displacement = slip + path;
-            let displacement_slope = tangent + path_slope * joint_slope;
-            let (across, across_slope, velocity) = self.beside_joint(displacement, step);
-            let hauled = self.inertia.at(step, displacement);
-            let error = joint_force + across + hauled.force - force;
-            let slope = joint_slope + (across_slope + hauled.slope) * displacement_slope;
-            answer = (slip, joint_force, displacement, velocity);
-            let share = (1.0 / slope).clamp(0.0, 1.0);
-            let carried = self.carried(displacement, step, across_slope);
-            let next = bracket.next(trial, error, slope, 2.0 * error);
-            let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
-            if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
-                self.share = share;
-                self.applied = force;
-                let taken = self.inertia.take(step, displacement);
-                self.accept(time, step, answer);
-                return Step {
-                    force: force - hauled.force,
-                    displacement,
-                    share,
-                    carried: carried.map(|c| c * displacement_slope * share),
-                    hauled: Carried {
-                        by_motion: taken.by_motion.map(|c| -c * displacement_slope * share),
-                        ..taken
-                    },
-                };
-            }
-            trial = next;
-            round += 1;
-        }
-    }
-
-    fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
-        let path_acts = self.has[index(Place::Spring)] || self.has[index(Place::InSeries)];
-        let mut trial = if path_acts {
-            self.last.slip + self.share * (displacement - self.last.displacement)
-        } else {
-            displacement
-        };
-        let precise = PRECISE * displacement.abs().max(0.1 * self.range());
-        let mut bracket = Bracket::new();
-        let mut round = 0;
-        loop {
-            let (network, tangent) = self.network(trial);
-            let (beside, beside_slope) = self.beside_slip(trial);
-            let joint_force = network + beside;
-            let joint_slope = tangent + beside_slope;
-            let (path, path_slope) = self.in_path(joint_force, step);
-            let error = trial + path - displacement;
-            let slope = 1.0 + path_slope * joint_slope;
-            let next = bracket.next(trial, error, slope, error);
-            if !path_acts || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
-                let (across, _, velocity) = self.beside_joint(displacement, step);
-                self.accept(time, step, (trial, joint_force, displacement, velocity));
-                let share = (1.0 / slope).clamp(0.0, 1.0);
-                self.share = share;
-                return Step {
-                    force: joint_force + across,
-                    displacement,
-                    share,
-                    ..Step::default()
-                };
-            }
-            trial = next;
-            round += 1;
-        }
     }
 
     /// Largest input that the grid was made for.

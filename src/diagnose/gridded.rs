@@ -1,0 +1,130 @@
+//! What a cause brings on a finer grid: a coarse one is wrong by a little everywhere, and a cause may mend that.
+
+use super::trials::{ALARM, alarm, dispersion};
+use crate::identify::finer::finer;
+use crate::identify::{Fit, Problem, refit};
+use crate::joint::effect::Acting;
+
+/// Evidence, over [`ALARM`], up to which a cause is looked at on a grid of half the spacing: the grid is chosen so
+/// that what it is wrong by is far below the noise, and that makes no more.
+const LITTLE: f64 = 10.0;
+
+/// True where a set's evidence against the current one stays as both have a grid of half the spacing.
+pub fn stays_on_a_finer_grid(
+    problem: &Problem,
+    current: &Fit,
+    (evidence, fit): (f64, &Fit),
+) -> bool {
+    if evidence > LITTLE * ALARM {
+        return true;
+    }
+    let (fine, coefficients) = finer(problem, &current.coefficients);
+    let start = Fit {
+        coefficients,
+        misfit: f64::INFINITY,
+        effects: Vec::new(),
+        ..current.clone()
+    };
+    let with = |effects: &[Acting]| refit(&fine, &start, effects.to_vec());
+    let (without, with) = rayon::join(|| with(&current.effects), || with(&fit.effects));
+    let fall = |less: &Fit, more: &Fit| (less.misfit - more.misfit) / dispersion(problem, more);
+    let lost = fall(current, fit) - fall(&without, &with);
+    evidence - lost >= alarm(problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::{Form, baseline};
+    use crate::joint::effect::{Effect, Place, Trajectory};
+    use crate::joint::parameters::Parameter;
+    use crate::record::Record;
+
+    static SIZE: [Parameter; 1] = [Parameter {
+        name: "size",
+        symbol: "a",
+        unit: "1",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        neutral: None,
+        meaning: "of what the load cell adds",
+    }];
+
+    /// A joint as sharp as no grid has it: sliders that let go nearly at once, between two edges.
+    fn sharp(displacement: &[f64]) -> Vec<f64> {
+        let mut reached = [0.0_f64; 3];
+        let mut before = 0.0;
+        let moved = displacement.iter().map(|&u| {
+            for (d, limit) in reached.iter_mut().zip([1.20, 1.23, 1.26]) {
+                *d = (*d + u - before).clamp(-limit, limit);
+            }
+            before = u;
+            reached.iter().sum()
+        });
+        moved.collect()
+    }
+
+    fn tone(displacement: &[f64]) -> Vec<f64> {
+        (0..displacement.len())
+            .map(|i| (2.9 * i as f64).sin())
+            .collect()
+    }
+
+    /// What a load cell adds, by a law of the displacement.
+    struct Adds(fn(&[f64]) -> Vec<f64>);
+
+    impl Effect for Adds {
+        fn name(&self) -> &'static str {
+            "adds"
+        }
+        fn place(&self) -> Place {
+            Place::ForceChannel
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &SIZE
+        }
+        fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+            let added = (self.0)(&truth.displacement);
+            added.iter().map(|x| values[0] * x).collect()
+        }
+    }
+
+    /// Whether an effect stays that begins at `from`, in a record of the sharp joint and as much of the tone;
+    /// samples weigh as much as makes of what the effect takes the evidence.
+    fn stays(effect: &'static Adds, from: f64, heard: f64, evidence: f64) -> bool {
+        let displacement: Vec<f64> = (0..600)
+            .map(|i| 2.1 * (0.07 * f64::from(i)).sin() * f64::from(i.min(300)) / 300.0)
+            .collect();
+        let both = sharp(&displacement).into_iter().zip(tone(&displacement));
+        let record = Record {
+            name: "sharp".to_string(),
+            force: both.map(|(force, tone)| force + heard * tone).collect(),
+            displacement,
+            ..Record::default()
+        };
+        let mut problem = Problem::new(Form::Stop, &[record]);
+        let fitted = |problem: &Problem| {
+            let current = baseline(problem);
+            let values = vec![from];
+            let fit = refit(problem, &current, vec![Acting { effect, values }]);
+            (current, fit)
+        };
+        let (current, fit) = fitted(&problem);
+        let weight = (evidence / (current.misfit - fit.misfit)).sqrt();
+        problem.records[0].weight.fill(weight);
+        let (current, fit) = fitted(&problem);
+        stays_on_a_finer_grid(&problem, &current, (evidence, &fit))
+    }
+
+    static MENDS: Adds = Adds(sharp);
+    static SOUNDS: Adds = Adds(tone);
+
+    #[test]
+    fn what_mends_the_grid_goes_and_what_acts_stays() {
+        assert!(!stays(&MENDS, 0.9, 0.0, 2.0 * ALARM));
+        assert!(stays(&SOUNDS, 0.01, 0.1, 2.0 * ALARM));
+        // No grid is wrong by so much.
+        assert!(stays(&MENDS, 0.9, 0.0, 11.0 * ALARM));
+    }
+}
