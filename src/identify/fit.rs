@@ -5,6 +5,7 @@
 use super::nonnegative::Normal;
 use super::operators::Form;
 use super::problem::{Prediction, Problem};
+use super::reached::Reached;
 use super::rows::each_row;
 use super::series;
 use super::slopes::{Slope, hold, moved, slopes};
@@ -67,24 +68,6 @@ const STEPS: usize = 10;
 const LONGEST: usize = 40;
 const STEADY: f64 = 0.01;
 
-/// Times the size of the effect that a refit starts from is cut to a third: sizes come from a score
-/// to first order.
-const SMALLER: usize = 6;
-
-/// The last of the effects a third as large.
-fn shrunk(effects: &[Acting]) -> Vec<Acting> {
-    let mut smaller = effects.to_vec();
-    let newest = smaller.iter_mut().rev().find(|a| !series::is(a));
-    if let Some(acting) = newest {
-        for (value, parameter) in acting.values.iter_mut().zip(acting.effect.parameters()) {
-            if let Some(zero) = parameter.vanishes_at {
-                *value = zero + (*value - zero) / 3.0;
-            }
-        }
-    }
-    smaller
-}
-
 /// Dampings tried within one step.
 const TRIALS: usize = 7;
 
@@ -137,9 +120,13 @@ pub(super) struct Suited {
 
 /// The dictionary refitted, from the given coefficients, beside effects that stay as they are.
 pub(super) fn suited(problem: &Problem, coefficients: &[f64], effects: &[Acting]) -> Suited {
-    let at = problem.predict(coefficients, effects);
-    let coefficients = projected(problem, coefficients, effects, &at);
-    let (misfit, offsets) = problem.misfit(&problem.predict(&coefficients, effects));
+    let from = Reached::at(problem, coefficients.to_vec(), effects.to_vec());
+    let Reached {
+        coefficients,
+        misfit,
+        offsets,
+        ..
+    } = from.suited(problem);
     Suited {
         coefficients,
         misfit,
@@ -240,78 +227,68 @@ fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps
     descend(problem, farther.coefficients, farther.effects, steps)
 }
 
-fn descend(
-    problem: &Problem,
-    mut coefficients: Vec<f64>,
-    mut effects: Vec<Acting>,
-    steps: Steps,
-) -> Fit {
+fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps: Steps) -> Fit {
     let columns = problem.operators.columns();
-    let mut predictions = problem.predict(&coefficients, &effects);
-    let (mut misfit, mut offsets) = problem.misfit(&predictions);
-    for _ in 0..SMALLER {
-        if misfit <= steps.before {
-            break;
-        }
-        let anew = projected(problem, &coefficients, &effects, &predictions);
-        let trial = problem.predict(&anew, &effects);
-        let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-        if trial_misfit <= steps.before {
-            (coefficients, predictions, misfit, offsets) =
-                (anew, trial, trial_misfit, trial_offsets);
-            break;
-        }
-        let smaller = shrunk(&effects);
-        let trial = problem.predict(&coefficients, &smaller);
-        let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-        if trial_misfit >= misfit {
-            break;
-        }
-        (effects, predictions, misfit, offsets) = (smaller, trial, trial_misfit, trial_offsets);
-    }
+    let mut now = Reached::at(problem, coefficients, effects).begun(problem, steps.before);
     let mut damping = 0.0;
     // A limit that follows what the joint does makes the answer less than linear in the dictionary.
-    let implicit = effects.iter().any(|a| a.effect.place() == Place::SlipLimit);
+    let limits = |a: &Acting| a.effect.place() == Place::SlipLimit;
+    let implicit = now.effects.iter().any(limits);
     for round in 0..steps.longest {
-        let slopes = slopes(problem, &coefficients, &effects, &predictions);
-        let normal = normal(problem, &coefficients, &effects, &predictions, &slopes);
+        let slopes = slopes(problem, &now.coefficients, &now.effects, &now.predictions);
+        let normal = normal(
+            problem,
+            &now.coefficients,
+            &now.effects,
+            &now.predictions,
+            &slopes,
+        );
         let records = problem.records.len();
         let first = columns + records;
         let mut bounded = vec![true; normal.size];
         bounded[columns..].iter_mut().for_each(|b| *b = false);
         let solution = normal.solve(&bounded);
-        if round > 0 && misfit - normal.misfit(&solution) < SETTLED * misfit {
+        if round > 0 && now.misfit - normal.misfit(&solution) < SETTLED * now.misfit {
             break;
         }
         let mut accepted = false;
-        for _ in 0..TRIALS {
+        for attempt in 0..TRIALS {
             let mut damped = normal.clone();
             (first..normal.size).for_each(|i| damped.damp(i, damping));
             if implicit && damping > 0.0 {
-                let at = coefficients.iter().enumerate();
+                let at = now.coefficients.iter().enumerate();
                 at.for_each(|(i, &c)| damped.anchor(i, damping, c));
             }
             let mut solution = damped.solve(&bounded);
-            if hold(&mut damped, &effects, &slopes, &solution[first..], first) {
+            if hold(
+                &mut damped,
+                &now.effects,
+                &slopes,
+                &solution[first..],
+                first,
+            ) {
                 solution = damped.solve(&bounded);
             }
-            let trial_effects = moved(&effects, &slopes, &solution[first..]);
-            let trial = problem.predict(&solution[..columns], &trial_effects);
-            let (trial_misfit, trial_offsets) = problem.misfit(&trial);
-            if trial_misfit.is_finite() && (trial_misfit < misfit || round == 0 && steps.most == 1)
-            {
-                let fall = misfit - trial_misfit;
-                let prospect = round < FIRST || trial_misfit - PROSPECT * fall < steps.bound;
+            let values = moved(&now.effects, &slopes, &solution[first..]);
+            solution.truncate(columns);
+            let mut trial = Reached::at(problem, solution, values);
+            // Where the values went far, a dictionary that went straight with them suits them no more.
+            if attempt == 0 && !slopes.is_empty() && trial.misfit >= now.misfit {
+                let suited = trial.suited(problem);
+                if suited.misfit < trial.misfit {
+                    trial = suited;
+                }
+            }
+            let once = round == 0 && steps.most == 1;
+            if trial.misfit.is_finite() && (trial.misfit < now.misfit || once) {
+                let fall = now.misfit - trial.misfit;
+                let prospect = round < FIRST || trial.misfit - PROSPECT * fall < steps.bound;
                 let least = match round + 1 < steps.most {
                     true => SETTLED,
                     false => STEADY,
                 };
-                accepted = fall > least * misfit && prospect;
-                coefficients = solution[..columns].to_vec();
-                effects = trial_effects;
-                predictions = trial;
-                misfit = trial_misfit;
-                offsets = trial_offsets;
+                accepted = fall > least * now.misfit && prospect;
+                now = trial;
                 damping *= 0.1;
                 break;
             }
@@ -325,11 +302,11 @@ fn descend(
         }
     }
     Fit {
-        coefficients,
-        offsets,
-        effects,
+        coefficients: now.coefficients,
+        offsets: now.offsets,
+        effects: now.effects,
         series: None,
-        misfit,
+        misfit: now.misfit,
     }
 }
 

@@ -19,6 +19,7 @@ pub mod march;
 pub mod nonnegative;
 pub mod operators;
 pub mod problem;
+mod reached;
 pub mod rows;
 pub mod scatter;
 pub mod score;

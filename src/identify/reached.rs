@@ -1,0 +1,168 @@
+//! Where a refit stands: a dictionary, effects, and what they leave.
+
+use super::fit::projected;
+use super::problem::{Prediction, Problem};
+use super::series;
+use crate::joint::effect::Acting;
+
+/// Times the size of the effect that a refit starts from is cut to a third: sizes come from a score
+/// to first order.
+const SMALLER: usize = 6;
+
+/// The last of the effects a third as large.
+fn shrunk(effects: &[Acting]) -> Vec<Acting> {
+    let mut smaller = effects.to_vec();
+    let newest = smaller.iter_mut().rev().find(|a| !series::is(a));
+    if let Some(acting) = newest {
+        for (value, parameter) in acting.values.iter_mut().zip(acting.effect.parameters()) {
+            if let Some(zero) = parameter.vanishes_at {
+                *value = zero + (*value - zero) / 3.0;
+            }
+        }
+    }
+    smaller
+}
+
+/// A model on the way down, and what it leaves.
+pub(super) struct Reached {
+    pub coefficients: Vec<f64>,
+    pub effects: Vec<Acting>,
+    pub predictions: Vec<Prediction>,
+    pub misfit: f64,
+    pub offsets: Vec<f64>,
+}
+
+impl Reached {
+    /// Some effects with a dictionary.
+    pub fn at(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>) -> Reached {
+        let predictions = problem.predict(&coefficients, &effects);
+        let (misfit, offsets) = problem.misfit(&predictions);
+        Reached {
+            coefficients,
+            effects,
+            predictions,
+            misfit,
+            offsets,
+        }
+    }
+
+    /// The same effects with the dictionary that suits them.
+    pub fn suited(&self, problem: &Problem) -> Reached {
+        let anew = projected(
+            problem,
+            &self.coefficients,
+            &self.effects,
+            &self.predictions,
+        );
+        Reached::at(problem, anew, self.effects.clone())
+    }
+
+    /// The smaller start, or the better suited one, of effects that begin worse than a model without them.
+    pub fn begun(mut self, problem: &Problem, before: f64) -> Reached {
+        for _ in 0..SMALLER {
+            if self.misfit <= before {
+                break;
+            }
+            let suited = self.suited(problem);
+            if suited.misfit <= before {
+                return suited;
+            }
+            let smaller = shrunk(&self.effects);
+            let smaller = Reached::at(problem, self.coefficients.clone(), smaller);
+            if smaller.misfit >= self.misfit {
+                break;
+            }
+            self = smaller;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::{Form, baseline, refit};
+    use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+    use crate::joint::parameters::Parameter;
+    use crate::record::Record;
+
+    struct Uneven;
+
+    static SHARE: [Parameter; 1] = [Parameter {
+        name: "share",
+        symbol: "a",
+        unit: "1",
+        lower: -0.95,
+        upper: 0.95,
+        vanishes_at: Some(0.0),
+        neutral: None,
+        meaning: "by which limits are larger one way",
+    }];
+
+    impl Effect for Uneven {
+        fn name(&self) -> &'static str {
+            "uneven"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &SHARE
+        }
+        fn slip_limit(&self, values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
+            SlipLimit {
+                positive: 1.0 + values[0],
+                negative: 1.0 - values[0],
+            }
+        }
+    }
+
+    /// Values that go far leave their dictionary behind, and another one suits them.
+    #[test]
+    fn a_value_goes_far_beside_a_dictionary_that_must_follow_it() {
+        let force: Vec<f64> = (0..1500)
+            .map(|i| 0.004 * f64::from(i))
+            .map(|t| 0.2 * (31.0 * t).sin() + 0.5 * (13.0 * t).sin() - 0.3 * (2.6 * t).sin())
+            .collect();
+        let mut record = Record {
+            name: "uneven".to_string(),
+            time: Some((0..1500).map(|i| 0.004 * f64::from(i)).collect()),
+            displacement: vec![0.0; force.len()],
+            force,
+            ..Record::default()
+        };
+        let uneven = |share: f64| {
+            vec![Acting {
+                effect: &Uneven,
+                values: vec![share],
+            }]
+        };
+        let mut problem = Problem::new(Form::Play, &[record.clone()]);
+        // A joint of a smooth density, on a grid of its own.
+        let edges: Vec<f64> = (1..=300).map(|j| 0.0033 * f64::from(j)).collect();
+        let density = |r: &f64| (-0.5 * ((r / 0.8).ln() / 0.46).powi(2)).exp() / r;
+        let coefficients: Vec<f64> = std::iter::once(1.0)
+            .chain(edges.iter().map(|r| 0.002 * density(r)))
+            .chain([0.0; crate::identify::operators::BEYOND])
+            .collect();
+        problem.operators = crate::identify::Operators::with_edges(Form::Play, edges);
+        let exact = problem.predict(&coefficients, &uneven(0.2))[0]
+            .judged
+            .clone();
+        let rough = |(i, u): (usize, &f64)| u + 1e-3 * (1e3 * (i * i) as f64).sin();
+        record.displacement = exact.iter().enumerate().map(rough).collect();
+        let mut problem = Problem::new(Form::Play, &[record]);
+        problem.records[0].weight.fill(1e3);
+        let start = baseline(&problem);
+        let far = Reached::at(&problem, start.coefficients.clone(), uneven(0.2));
+        let near = far.suited(&problem);
+        // Of a joint under force limits that are given leave a linear problem: one step ends at its least.
+        assert!(far.misfit > 10.0 * near.misfit);
+        for share in [0.02, -0.1, 0.4] {
+            let fit = refit(&problem, &start, uneven(share));
+            let found = fit.effects[0].values[0];
+            assert!((found - 0.2).abs() < 0.005, "from {share}: {found}");
+            assert!(near.misfit < 1.01 * fit.misfit);
+        }
+    }
+}
