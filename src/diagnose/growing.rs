@@ -86,9 +86,11 @@ impl Grow<'_> {
             Effort::Quick => promising.next(),
             Effort::Full => promising
                 .take(PREDICTORS)
-                .filter(|t| stays_on_a_finer_grid(&self.bench.train, current, (t.evidence, &t.fit)))
                 .map(|t| (t, Prospect::of(self.bench, current, &t.fit)))
                 .filter(|(_, prospect)| prospect.holds())
+                .filter(|(t, _)| {
+                    stays_on_a_finer_grid(&self.bench.train, current, (t.evidence, &t.fit))
+                })
                 .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))
                 .map(|(t, _)| t),
         };

@@ -98,39 +98,17 @@ pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
 pub fn without(problem: &Problem, fit: &Fit, place: usize) -> Fit {
     let mut less = fit.clone();
     less.effects.remove(place);
-    let Suited {
-        coefficients,
-        misfit,
-        offsets,
-    } = suited(problem, &less.coefficients, &less.acting());
-    Fit {
-        coefficients,
-        misfit,
-        offsets,
-        ..less
-    }
-}
-
-/// A dictionary that suits some effects, and what it leaves.
-pub(super) struct Suited {
-    pub coefficients: Vec<f64>,
-    pub misfit: f64,
-    pub offsets: Vec<f64>,
-}
-
-/// The dictionary refitted, from the given coefficients, beside effects that stay as they are.
-pub(super) fn suited(problem: &Problem, coefficients: &[f64], effects: &[Acting]) -> Suited {
-    let from = Reached::at(problem, coefficients.to_vec(), effects.to_vec());
     let Reached {
         coefficients,
         misfit,
         offsets,
         ..
-    } = from.suited(problem);
-    Suited {
+    } = Reached::at(problem, less.coefficients.clone(), less.acting()).suited(problem);
+    Fit {
         coefficients,
         misfit,
         offsets,
+        ..less
     }
 }
 

@@ -1,8 +1,9 @@
 //! Search along a value that the answer follows in small jumps: between them there is no slope that
 //! would lead on.
 
-use super::fit::{Fit, Suited, suited};
+use super::fit::Fit;
 use super::problem::Problem;
+use super::reached::Reached;
 use super::series;
 
 /// Factors tried at once: a first size comes from a slope, and slopes between jumps tell little.
@@ -55,11 +56,13 @@ fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> F
     let parameter = &effects[e].effect.parameters()[p];
     let value = &mut effects[e].values[p];
     *value = (*value * factor).clamp(parameter.lower, parameter.upper);
-    let Suited {
+    let Reached {
         coefficients,
+        effects,
         misfit,
         offsets,
-    } = suited(problem, &fit.coefficients, &effects);
+        ..
+    } = Reached::at(problem, fit.coefficients.clone(), effects).suited(problem);
     Fit {
         coefficients,
         offsets,
