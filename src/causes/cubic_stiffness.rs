@@ -1,8 +1,8 @@
-//! `cubic_stiffness`: the spring beside the interface softens or hardens.
+//! `cubic_stiffness`: a spring before the interface softens or hardens, or one beside the joint hardens.
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};
-use crate::joint::elementary::cube;
+use crate::joint::elementary::{cube, square};
 use crate::joint::parameters::Parameter;
 
 /// A displacement of the spring beyond F/K_1, `δ = b F³ / (1 + c F²)`, for a negative c
@@ -12,9 +12,11 @@ use crate::joint::parameters::Parameter;
 /// spring: beyond it displacement would fall with force, which no spring does. A spring that hardens
 /// goes over to a stiffness of its own instead, which is what c is for; with b it is the
 /// first odd terms of the spring's law as a quotient.
+///
+/// Or a force across the whole joint, `f = k_3 U³`, of parts that bend or stretch with it.
 pub struct CubicStiffness;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "cubic_compliance",
         symbol: "b",
@@ -22,7 +24,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "displacement beyond F/K_1 per cube of the force; positive softens, negative hardens",
     },
     Parameter {
@@ -35,6 +37,16 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: Some(0.0),
         meaning: "how the cube levels off: to half of it where c F^2 = 1; negative: it grows as a fifth power",
     },
+    Parameter {
+        name: "across",
+        symbol: "k_3",
+        unit: "N/m3",
+        lower: -1e30,
+        upper: 1e30,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "force across the joint per cube of its displacement; negative softens",
+    },
 ];
 
 impl Effect for CubicStiffness {
@@ -46,6 +58,16 @@ impl Effect for CubicStiffness {
     }
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
+    }
+    fn also_at(&self, values: &[f64]) -> Option<Place> {
+        (values[2] != 0.0).then_some(Place::BesideJoint)
+    }
+    fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
+        Response {
+            value: values[2] * cube(displacement),
+            slope: 3.0 * values[2] * square(displacement),
+            damping: 0.0,
+        }
     }
     fn spring(&self, values: &[f64], force: f64) -> Response {
         let (square, levelled) = (force * force, values[1] * force * force);
@@ -68,21 +90,27 @@ impl Cause for CubicStiffness {
     fn page(&self) -> Page {
         Page {
             happens: "The parts around the joint bend or stretch out of their first shape, or a gasket, washer or elastomer gets stiffer or softer with load.",
-            sign: "Backbone of the loops bends with the third power of the force while their area stays as it was; equal in tension and compression, in every cycle and at every rate; third harmonic in phase with the force.",
+            sign: "Backbone of the loops bends with the third power of the force or of the displacement while their area stays as it was; equal in tension and compression, in every cycle and at every rate; third harmonic in phase with the force.",
             mistaken_for: &["pinning", "sensor_nonlinearity", "joint_opening"],
             separated_by: "It sets in from zero force, pinning beyond a gap; unloading branches bend as loading ones do, while microslip bends each branch anew; a dummy specimen shows a sensor's cube and not this one.",
-            formula: "U = u + F/K_1 + b F^3 / (1 + c F^2), for c < 0 b F^3 (1 - c F^2); with c = 0 hardening holds while 3 |b| F^2 is less than the compliance of joint and spring",
-            source: "First odd term of a non-linear elastic spring (Duffing), written in compliance.",
+            formula: "F = F_j + k_3 U^3, or U = u + F/K_1 + b F^3 / (1 + c F^2), for c < 0 b F^3 (1 - c F^2); with c = 0 hardening holds while 3 |b| F^2 is less than the compliance of joint and spring",
+            source: "First odd term of a non-linear elastic spring (Duffing), across the joint or, written in compliance, in its load path.",
         }
     }
     fn effect(&self) -> &'static dyn Effect {
         &CubicStiffness
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.01 * scale.displacement / cube(scale.force), 0.0]]
+        vec![
+            vec![0.01 * scale.displacement / cube(scale.force), 0.0, 0.0],
+            vec![0.0, 0.0, 0.01 * scale.force / cube(scale.displacement)],
+        ]
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        vec![values[0], 0.3 / (scale.force * scale.force)]
+        match values[0] == 0.0 {
+            true => values.to_vec(),
+            false => vec![values[0], 0.3 / square(scale.force), values[2]],
+        }
     }
 }
 
@@ -92,14 +120,21 @@ mod tests {
 
     #[test]
     fn displacement_is_the_cube_of_the_force() {
-        let at = |force| CubicStiffness.spring(&[0.5, 0.0], force);
+        let at = |force| CubicStiffness.spring(&[0.5, 0.0, 0.0], force);
+        assert_eq!((at(2.0).value, at(-2.0).value), (4.0, -4.0));
+        assert_eq!((at(2.0).slope, at(-2.0).slope), (6.0, 6.0));
+    }
+
+    #[test]
+    fn force_across_is_the_cube_of_the_displacement() {
+        let at = |u| CubicStiffness.beside_joint(&[0.0, 0.0, 0.5], u, 1.0);
         assert_eq!((at(2.0).value, at(-2.0).value), (4.0, -4.0));
         assert_eq!((at(2.0).slope, at(-2.0).slope), (6.0, 6.0));
     }
 
     #[test]
     fn the_cube_levels_off_or_grows_on_smoothly() {
-        let at = |levelling, force| CubicStiffness.spring(&[0.5, levelling], force);
+        let at = |levelling, force| CubicStiffness.spring(&[0.5, levelling, 0.0], force);
         assert_eq!((at(0.25, 2.0).value, at(-0.25, 2.0).value), (2.0, 8.0));
         for (levelling, force) in [(0.25, 2.0), (-0.25, 2.0), (0.7, -0.3), (-0.7, -0.3)] {
             let step = 1e-6;

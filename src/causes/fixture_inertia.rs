@@ -131,7 +131,10 @@ impl Cause for FixtureInertia {
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let acceleration = scale.velocity * scale.velocity / scale.displacement;
         let whole = scale.force / acceleration;
-        STARTS.iter().map(|share| vec![share * whole]).collect()
+        // A mass that rings on the joint does so at its own frequency.
+        let rings = scale.ringing.iter().map(|w| scale.stiffness / square(*w));
+        let shares = STARTS.iter().map(|share| share * whole);
+        shares.chain(rings).map(|mass| vec![mass]).collect()
     }
 }
 

@@ -8,9 +8,12 @@ use crate::joint::parameters::Parameter;
 /// A compliance that acts beyond a force on one side only: `δ = c max(F − F_o, 0)` for `F_o ≥ 0`,
 /// `δ = −c max(F_o − F, 0)` for `F_o < 0`; where the surfaces part little by little, max(x, 0) is rounded to
 /// `g(x) = (x + √(x² + r²))/2`, less what it is at no force.
+///
+/// Or a stiffness across the whole joint on one side of rest, of surfaces that meet there:
+/// `f = k_c max(U, 0)`, and for `k_c < 0`, on the other side, `f = −|k_c| max(−U, 0)`.
 pub struct JointOpening;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "compliance",
         symbol: "c_o",
@@ -18,7 +21,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "compliance that the opened joint has beyond that of the closed one",
     },
     Parameter {
@@ -28,7 +31,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: -1e9,
         upper: 1e9,
         vanishes_at: None,
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "force at which the surfaces part; its sign tells the side that opens",
     },
     Parameter {
@@ -40,6 +43,16 @@ static PARAMETERS: [Parameter; 3] = [
         vanishes_at: None,
         neutral: Some(0.0),
         meaning: "force over which the surfaces part; 0: at once",
+    },
+    Parameter {
+        name: "closed_stiffness",
+        symbol: "k_c",
+        unit: "N/m",
+        lower: -1e15,
+        upper: 1e15,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "stiffness that the joint has more on one side of rest; its sign tells the side",
     },
 ];
 
@@ -68,6 +81,20 @@ impl Effect for JointOpening {
     fn keeps_side(&self, parameter: usize) -> bool {
         PARAMETERS[parameter].name == "opening_force"
     }
+    fn also_at(&self, values: &[f64]) -> Option<Place> {
+        (values[3] != 0.0).then_some(Place::BesideJoint)
+    }
+    fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
+        let closed = match displacement * values[3] > 0.0 {
+            true => values[3].abs(),
+            false => 0.0,
+        };
+        Response {
+            value: closed * displacement,
+            slope: closed,
+            damping: 0.0,
+        }
+    }
     fn spring(&self, values: &[f64], force: f64) -> Response {
         let [compliance, opens, rounding] = [values[0], values[1], values[2]];
         let side = if opens >= 0.0 { 1.0 } else { -1.0 };
@@ -93,7 +120,7 @@ impl Cause for JointOpening {
                 "pinning",
             ],
             separated_by: "The kink sits at a force, not at a displacement, and adds no area; below the opening force the baseline is exact; a normal load that follows the force changes the area of the loops too.",
-            formula: "U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2",
+            formula: "F = F_j + k_c max(U, 0), or U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2",
             source: "Preloaded bolted joint beyond separation, VDI 2230; bilinear spring.",
         }
     }
@@ -104,11 +131,20 @@ impl Cause for JointOpening {
         let compliance = 0.01 * scale.displacement / scale.force;
         [0.02, -0.02, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75]
             .iter()
-            .map(|share| vec![compliance, share * scale.force, 0.0])
+            .map(|share| vec![compliance, share * scale.force, 0.0, 0.0])
+            .chain([vec![0.0, 0.0, 0.0, 0.01 * scale.force / scale.displacement]])
             .collect()
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], LITTLE_BY_LITTLE * scale.force]
+        match values[0] == 0.0 {
+            true => values.to_vec(),
+            false => vec![
+                values[0],
+                values[1],
+                LITTLE_BY_LITTLE * scale.force,
+                values[3],
+            ],
+        }
     }
 }
 
@@ -118,7 +154,7 @@ mod tests {
 
     #[test]
     fn it_is_softer_beyond_the_opening_force_and_there_only() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0, 0.0], force);
         assert_eq!((at(3.0, 5.0).value, at(3.0, 5.0).slope), (4.0, 2.0));
         assert_eq!(at(3.0, -5.0), Response::default());
         assert_eq!((at(-3.0, -5.0).value, at(-3.0, -5.0).slope), (-4.0, 2.0));
@@ -128,8 +164,17 @@ mod tests {
     }
 
     #[test]
+    fn it_is_stiffer_across_on_the_side_of_the_sign() {
+        let at = |stiffness, u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness], u, 1.0);
+        assert_eq!((at(3.0, 2.0).value, at(3.0, 2.0).slope), (6.0, 3.0));
+        assert_eq!((at(-3.0, -2.0).value, at(-3.0, -2.0).slope), (-6.0, 3.0));
+        assert_eq!(at(3.0, -2.0), Response::default());
+        assert_eq!(at(-3.0, 2.0), Response::default());
+    }
+
+    #[test]
     fn a_rounding_parts_the_surfaces_little_by_little() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0, 0.0], force);
         for opens in [3.0, -3.0] {
             assert_eq!(at(opens, 0.0).value, 0.0);
             let far = at(opens, 1e6 * opens).value - 2.0 * (1e6 - 1.0) * opens;

@@ -79,6 +79,8 @@ pub struct Scale {
     pub slowest: f64,
     /// Time between samples \[s\].
     pub step: f64,
+    /// Frequencies faster than the load at which what the baseline leaves is loudest \[rad/s\].
+    pub ringing: Vec<f64>,
 }
 
 impl Scale {
@@ -110,6 +112,10 @@ pub trait Cause: Effect {
     /// in different ranges.
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {
         true
+    }
+    /// Another cause whose law is the same formula with these values, and whose word fits them as well.
+    fn also_called(&self, _values: &[f64], _scale: &Scale) -> Option<&'static str> {
+        None
     }
     /// What is not in the catalogue and would leave the same trace in a test that went like this; the
     /// cause is named then, and not taken for the whole explanation.

@@ -1,6 +1,8 @@
 //! `preload_loss`: friction decays as the interface works.
 
-use super::wear::{ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, remaining, shapes, worn};
+use super::wear::{
+    ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, late, remaining, shapes, soon, worn,
+};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
@@ -24,9 +26,6 @@ static PARAMETERS: [Parameter; 4] = [
     TAIL,
     PER_PATH,
 ];
-
-/// Share of a record's dissipated energy below which a loss that is over is running in.
-const LATE: f64 = 0.08;
 
 impl Effect for PreloadLoss {
     fn name(&self) -> &'static str {
@@ -81,7 +80,10 @@ impl Cause for PreloadLoss {
         vec![values[0], values[1], 0.3, values[3]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        worn(LATE * scale.dissipation, LATE * scale.path, values) < 1.0
+        late(values, scale)
+    }
+    fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
+        soon(values, scale).then_some("running_in")
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         shapes(0.02, &[0.1, 0.2, 0.4, 0.8, 2.0], scale)

@@ -1,15 +1,16 @@
-//! `running_in`: friction settles to its lasting value within the first cycles.
+//! `running_in`: friction, or stiffness, settles to its lasting value within the first cycles.
 
-use super::wear::{ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, remaining, shapes, worn};
+use super::wear::{ENERGY, PER_PATH, TAIL, follow_path, late, remaining, shapes, soon, worn};
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::effect::{Effect, Place, Response, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`, or with the path of the
-/// slip, see [`worn`].
+/// slip, see [`worn`]; or a compliance in the load path does, `x = c exp(−E/E_0) F`, and for c < 0, of fresh
+/// surfaces that are stiffer, `x = −c [1 − exp(−E/E_0)] F`.
 pub struct RunningIn;
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter; 5] = [
     Parameter {
         name: "deficit",
         symbol: "a",
@@ -17,18 +18,39 @@ static PARAMETERS: [Parameter; 4] = [
         lower: -0.98,
         upper: 0.98,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "share of the lasting break-free forces that the fresh surfaces lack; negative where they have more",
     },
     ENERGY,
     TAIL,
     PER_PATH,
+    Parameter {
+        name: "softness",
+        symbol: "c",
+        unit: "m/N",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "compliance that the fresh surfaces have more than they will; negative where they have less",
+    },
 ];
 
-/// Share of a record's dissipated energy or path over which friction that falls has to settle: what takes
-/// longer is lost preload. The span of lost preload begins below it: between the two either word
-/// fits.
-const SOON: f64 = 0.2;
+/// What is left of the change after this energy \[J\] and path \[m\].
+fn left((dissipation, path): (f64, f64), values: &[f64]) -> f64 {
+    remaining(worn(dissipation, path, values), values[2])
+}
+
+impl RunningIn {
+    /// Compliance in the load path beyond the least it will have \[m/N\].
+    fn compliance(values: &[f64], work: &[f64]) -> f64 {
+        let left = left((work[0], work[1]), values);
+        match values[4] >= 0.0 {
+            true => values[4] * left,
+            false => -values[4] * (1.0 - left),
+        }
+    }
+}
 
 impl Effect for RunningIn {
     fn name(&self) -> &'static str {
@@ -40,34 +62,59 @@ impl Effect for RunningIn {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn memory(&self) -> usize {
-        PATH_MEMORY
+    fn also_at(&self, values: &[f64]) -> Option<Place> {
+        (values[4] != 0.0).then_some(Place::InSeries)
     }
-    /// The path.
+    /// Energy and path; both before the last step that took time, which its compliance went by; slip.
+    fn memory(&self) -> usize {
+        5
+    }
+    /// Energies and paths.
     fn lasting(&self) -> usize {
-        1
+        4
     }
     fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
-        follow_path(now, memory);
+        if let [energy, path, held_energy, held_path, slip] = memory {
+            if now.step > 0.0 {
+                (*held_energy, *held_path) = (*energy, *path);
+            }
+            *energy = now.dissipation;
+            let mut followed = [*path, *slip];
+            follow_path(now, &mut followed);
+            [*path, *slip] = followed;
+        }
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
-        let left = remaining(worn(last.dissipation, memory[0], values), values[2]);
-        let limit = 1.0 - values[0] * left;
+        let limit = 1.0 - values[0] * left((last.dissipation, memory[1]), values);
         SlipLimit {
             positive: limit,
             negative: limit,
         }
+    }
+    /// Where no time passes the compliance stays.
+    fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
+        let work = if step > 0.0 { memory } else { &memory[2..] };
+        let slope = RunningIn::compliance(values, work);
+        Response {
+            value: slope * force,
+            slope,
+            damping: 0.0,
+        }
+    }
+    /// Of a spring of the present compliance; what it changes by under load is lost, or given.
+    fn stored_energy(&self, values: &[f64], now: &Situation, memory: &[f64]) -> Option<f64> {
+        Some(0.5 * RunningIn::compliance(values, &memory[2..]) * now.force * now.force)
     }
 }
 
 impl Cause for RunningIn {
     fn page(&self) -> Page {
         Page {
-            happens: "Films and peaks of fresh surfaces wear off in the first cycles; contact spreads, friction grows and then stays.",
-            sign: "The first loops are wider and softer than the later ones of the same load; the change dies out and does not come back after a pause.",
+            happens: "Films and peaks of fresh surfaces wear off in the first cycles; contact spreads, friction grows, or the joint stiffens, and then stays.",
+            sign: "The first loops are wider and softer than the later ones of the same load, or as wide and only softer; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
             separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
-            formula: "phi = phi_0 [1 - a (1 + q w)^(-1/q)], exp(-w) for q = 0, w = E/E_0 or s/L",
+            formula: "phi = phi_0 [1 - a r] or U = u + F/K_1 + c r F, r = (1 + q w)^(-1/q), exp(-w) for q = 0, w = E/E_0 or s/L",
             source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy (Fouvry; Schwingshackl et al. 2012) or the path of the slip as the measure of work.",
         }
     }
@@ -75,13 +122,27 @@ impl Cause for RunningIn {
         &RunningIn
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], 0.3, values[3]]
+        vec![values[0], values[1], 0.3, values[3], values[4]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[0] > 0.0 || worn(SOON * scale.dissipation, SOON * scale.path, values) > 1.0
+        values[0] > 0.0 || values[4] > 0.0 || soon(values, scale)
+    }
+    fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
+        (values[0] < 0.0 && late(values, scale)).then_some("preload_loss")
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        shapes(0.05, &[0.01, 0.05, 0.2, 0.8], scale)
+        let shares = [0.01, 0.05, 0.2, 0.8];
+        let of = |friction: f64, softness: f64| {
+            let with = move |mut values: Vec<f64>| {
+                values[0] = friction;
+                values.push(softness);
+                values
+            };
+            shapes(friction, &shares, scale).into_iter().map(with)
+        };
+        of(0.05, 0.0)
+            .chain(of(0.0, 0.05 / scale.stiffness))
+            .collect()
     }
 }
 
@@ -97,11 +158,46 @@ mod tests {
                 ..Situation::default()
             };
             RunningIn
-                .slip_limit(&[0.4, 2.0, 0.0, 0.0], &last, &[0.0; 2])
+                .slip_limit(&[0.4, 2.0, 0.0, 0.0, 0.0], &last, &[0.0; 5])
                 .positive
         };
         assert_eq!(at(0.0), 0.6);
         assert!((at(2.0) - (1.0 - 0.4 / std::f64::consts::E)).abs() < 1e-15);
         assert_eq!(at(2000.0), 1.0);
+    }
+
+    #[test]
+    fn a_compliance_settles_from_either_side_and_is_never_negative() {
+        let at = |softness: f64, dissipation: f64| {
+            let values = [0.0, 2.0, 0.0, 0.0, softness];
+            let response =
+                RunningIn.in_series(&values, 30.0, 0.1, &[dissipation, 0.0, 7.0, 7.0, 0.0]);
+            assert_eq!(response.value, 30.0 * response.slope);
+            response.slope
+        };
+        assert_eq!(at(1e-3, 0.0), 1e-3);
+        assert!((at(1e-3, 2.0) - 1e-3 / std::f64::consts::E).abs() < 1e-18);
+        assert_eq!(at(1e-3, 2000.0), 0.0);
+        assert_eq!(at(-1e-3, 0.0), 0.0);
+        assert_eq!(at(-1e-3, 2000.0), 1e-3);
+    }
+
+    #[test]
+    fn work_is_remembered_with_its_path() {
+        let mut memory = [0.0; 5];
+        for (step, slip, dissipation) in [(0.1, 0.5, 1.0), (0.1, -0.25, 3.0), (0.0, -0.5, 4.0)] {
+            let now = Situation {
+                step,
+                slip,
+                dissipation,
+                ..Situation::default()
+            };
+            RunningIn.remember(&[], &now, &mut memory);
+        }
+        // What answers in no time goes by the work before the step that took some.
+        assert_eq!(memory, [4.0, 1.5, 1.0, 0.5, -0.5]);
+        let values = [0.0, 2.0, 0.0, 0.0, 1e-3];
+        let at = |step, memory: &[f64]| RunningIn.in_series(&values, 1.0, step, memory).value;
+        assert_eq!(at(0.0, &memory), at(0.1, &[1.0, 0.5, 0.0, 0.0, 0.0]));
     }
 }

@@ -71,10 +71,63 @@ pub(super) fn remaining(work: f64, tail: f64) -> f64 {
     }
 }
 
+/// Share of the longest record's dissipated energy or path over which friction that falls settles as it runs in:
+/// what takes longer is lost preload.
+const SOON: f64 = 0.2;
+
+/// Share below which a loss that is over is running in. Between the two either word fits.
+const LATE: f64 = 0.08;
+
+/// True of a change that is mostly over so soon that it may be running in.
+pub(super) fn soon(values: &[f64], scale: &Scale) -> bool {
+    worn(SOON * scale.dissipation, SOON * scale.path, values) > 1.0
+}
+
+/// True of a change that goes on for so long that it may be lost preload.
+pub(super) fn late(values: &[f64], scale: &Scale) -> bool {
+    worn(LATE * scale.dissipation, LATE * scale.path, values) < 1.0
+}
+
 /// Shapes of a change of this size that happens over shares of the records' energy, and of their path.
 pub(super) fn shapes(size: f64, shares: &[f64], scale: &Scale) -> Vec<Vec<f64>> {
     let by_energy = |share: &f64| vec![size, share * scale.dissipation, 0.0, 0.0];
     let by_path = |share: &f64| vec![size, ENDLESS, 0.0, 1.0 / (share * scale.path)];
     let energies = shares.iter().map(by_energy);
     energies.chain(shares.iter().map(by_path)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Scale, find};
+
+    /// Friction that falls by the same law is called by either word where both fit, and by one elsewhere.
+    #[test]
+    fn friction_that_falls_has_two_names_in_between() {
+        let scale = Scale {
+            dissipation: 10.0,
+            path: 2.0,
+            ..Scale::default()
+        };
+        let (lost, run_in) = (find("preload_loss").unwrap(), find("running_in").unwrap());
+        for (energy, loss, settling) in [(0.5, false, true), (1.2, true, true), (3.0, true, false)]
+        {
+            let falls = [0.3, energy, 0.0, 0.0];
+            let settles = [-0.3, energy, 0.0, 0.0, 0.0];
+            assert_eq!(lost.plausible(&falls, &scale), loss, "{energy} J");
+            assert_eq!(run_in.plausible(&settles, &scale), settling, "{energy} J");
+            let either = loss && settling;
+            if loss {
+                let other = either.then_some("running_in");
+                assert_eq!(lost.also_called(&falls, &scale), other, "{energy} J");
+            }
+            if settling {
+                let other = either.then_some("preload_loss");
+                assert_eq!(run_in.also_called(&settles, &scale), other, "{energy} J");
+            }
+        }
+        // Friction that grows, and stiffness, have one name.
+        for grows in [[0.3, 1.2, 0.0, 0.0, 0.0], [0.0, 1.2, 0.0, 0.0, -1e-9]] {
+            assert_eq!(run_in.also_called(&grows, &scale), None);
+        }
+    }
 }

@@ -3,7 +3,6 @@
 use super::trials::{ALARM, alarm, dispersion};
 use crate::identify::finer::finer;
 use crate::identify::{Fit, Problem, refit};
-use crate::joint::effect::Acting;
 
 /// Evidence, over [`ALARM`], up to which a cause is looked at on a grid of half the spacing: the grid is chosen so
 /// that what it is wrong by is far below the noise, and that makes no more.
@@ -18,15 +17,17 @@ pub fn stays_on_a_finer_grid(
     if evidence > LITTLE * ALARM {
         return true;
     }
-    let (fine, coefficients) = finer(problem, &current.coefficients);
-    let start = Fit {
-        coefficients,
-        misfit: f64::INFINITY,
-        effects: Vec::new(),
-        ..current.clone()
+    let again = |set: &Fit| {
+        let (fine, coefficients) = finer(problem, &set.coefficients);
+        let start = Fit {
+            coefficients,
+            misfit: f64::INFINITY,
+            effects: Vec::new(),
+            ..set.clone()
+        };
+        refit(&fine, &start, set.effects.clone())
     };
-    let with = |effects: &[Acting]| refit(&fine, &start, effects.to_vec());
-    let (without, with) = rayon::join(|| with(&current.effects), || with(&fit.effects));
+    let (without, with) = rayon::join(|| again(current), || again(fit));
     let fall = |less: &Fit, more: &Fit| (less.misfit - more.misfit) / dispersion(problem, more);
     let lost = fall(current, fit) - fall(&without, &with);
     evidence - lost >= alarm(problem)
@@ -36,7 +37,7 @@ pub fn stays_on_a_finer_grid(
 mod tests {
     use super::*;
     use crate::identify::{Form, baseline};
-    use crate::joint::effect::{Effect, Place, Trajectory};
+    use crate::joint::effect::{Acting, Effect, Place, Trajectory};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
 

@@ -220,15 +220,18 @@ impl Investigation {
 
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
     /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
-    /// whether wear goes on.
+    /// whether wear goes on; every cause but one is as unlikely as what is against the rule.
     fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let weights = train.records.iter().flat_map(|r| &r.weight);
         let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
-        let of_causes: usize = self.found.best.effects.iter().map(|a| a.values.len()).sum();
+        let causes = &self.found.best.effects;
+        let of_causes: usize = causes.iter().map(Acting::free).sum();
+        let further = causes.len().saturating_sub(1) as f64;
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
         let values = (of_causes + of_beginnings + usize::from(train.wears_on)) as f64;
-        innovations + misfit / dispersion + values * (train.rows().max(3) as f64).ln()
+        let chosen = values * (train.rows().max(3) as f64).ln();
+        innovations + misfit / dispersion + chosen + further * ALARM
     }
 }

@@ -4,6 +4,7 @@ use super::prepare::Bench;
 use super::tested::{Prospect, beyond_unseen};
 use super::trials::{ALARM, Effort, Trial, dispersion, trials};
 use super::verdict::NEGLIGIBLE;
+use crate::causes;
 use crate::identify::{Fit, Problem, refit, without};
 use crate::joint::effect::Acting;
 
@@ -96,13 +97,18 @@ impl Place {
         self.trials.iter().filter(other)
     }
 
-    /// Who does as well as the named cause, best first.
-    pub fn rivals(&self, problem: &Problem, best: &Fit) -> Vec<String> {
-        let as_well = as_well(problem, best, self.brought);
-        self.others()
-            .filter(|t| t.fit.misfit < as_well)
-            .map(|t| t.cause.name().to_string())
-            .collect()
+    /// Who does as well as the named cause, best first; and what it is also called.
+    pub fn rivals(&self, bench: &Bench, best: &Fit) -> Vec<String> {
+        let as_well = as_well(&bench.train, best, self.brought);
+        let as_good = self.others().filter(|t| t.fit.misfit < as_well);
+        let mut rivals: Vec<String> = as_good.map(|t| t.cause.name().to_string()).collect();
+        let named = best.effect(self.named).zip(causes::find(self.named));
+        let also = named.and_then(|(own, cause)| cause.also_called(&own.values, &bench.scale));
+        let known = |also: &&str| best.effect(also).is_some() || rivals.iter().any(|r| r == also);
+        if let Some(also) = also.filter(|also| !known(also)) {
+            rivals.push(also.to_string());
+        }
+        rivals
     }
 }
 

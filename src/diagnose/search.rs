@@ -61,10 +61,7 @@ pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     }
     let scale = dispersion(&bench.train, &best);
     Found {
-        rivals: places
-            .iter()
-            .map(|p| p.rivals(&bench.train, &best))
-            .collect(),
+        rivals: places.iter().map(|p| p.rivals(bench, &best)).collect(),
         evidence: places.iter().map(|p| p.brought / scale).collect(),
         baseline,
         best,

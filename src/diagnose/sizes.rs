@@ -4,6 +4,7 @@ use crate::causes::Scale;
 use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Form, Problem};
 use crate::record::jumps::jumps;
+use crate::record::ringing::ringing;
 
 /// Sizes of the records, from the baseline's truth.
 pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
@@ -11,12 +12,13 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
     let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut dissipation, mut path, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
     let mut slowest = 0.0_f64;
+    let mut tones = Vec::new();
     for (k, record) in problem.records.iter().enumerate() {
         let mut last = 0.0;
         let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
             last = march.dissipation();
         });
-        let truth = prediction.truth;
+        let truth = &prediction.truth;
         let moves = truth.displacement.windows(2);
         path = path.max(moves.map(|two| (two[1] - two[0]).abs()).sum());
         force = force.max(largest(&truth.force));
@@ -26,8 +28,14 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
             let rate = (truth.displacement[i] - truth.displacement[i - 1]) / record.steps[i];
             velocity = velocity.max(rate.abs());
         }
-        slowest = slowest.max(std::f64::consts::TAU / truth.frequency());
-        step = record.steps.get(1).copied().unwrap_or(1.0).max(step);
+        let frequency = truth.frequency();
+        slowest = slowest.max(std::f64::consts::TAU / frequency);
+        let own = record.steps.get(1).copied().unwrap_or(1.0);
+        step = own.max(step);
+        let (_, measured) = problem.channels(k);
+        let both = measured.iter().zip(&prediction.judged);
+        let left: Vec<f64> = both.map(|(y, p)| y - p - first.offsets[k]).collect();
+        tones.extend(ringing(own, &left, FASTER * frequency));
     }
     let stiffness = match problem.operators.form {
         Form::Play => 1.0 / first.coefficients[0].max(1e-3 * displacement / force),
@@ -46,8 +54,12 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         period,
         slowest,
         step,
+        ringing: tones,
     }
 }
+
+/// Times the frequency of a load above which what rings is looked for.
+const FASTER: f64 = 2.0;
 
 /// Places of every record at which the displacement may have jumped.
 const JUMPS: usize = 2;

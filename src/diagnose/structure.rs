@@ -18,6 +18,9 @@ pub struct Structure {
     /// Correlation of neighbours in what is left within the bins, the largest of any record: noise
     /// that was whitened has none.
     pub correlation: f64,
+    /// Where noise was told by what is left, the largest correlation of samples further apart, of either sign and
+    /// beyond chance: what rings is no noise, and looks like it to its neighbours alone.
+    pub ringing: f64,
     /// Bins that stand out most: record, first and last sample, deviation over its own error.
     pub places: Vec<Place>,
 }
@@ -25,7 +28,7 @@ pub struct Structure {
 impl Structure {
     /// True where bins stand out by more than noise explains, or neighbours go together.
     pub fn is_seen(&self) -> bool {
-        self.significance > SEEN || self.correlation > RANDOM
+        self.significance > SEEN || self.correlation.max(self.ringing) > RANDOM
     }
 }
 
@@ -65,16 +68,23 @@ const LOUDEST: f64 = 25.0;
 pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
     let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
     let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
-    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, &a));
+    let told: Vec<bool> = noise.iter().map(|n| !n.repeated).collect();
+    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, (&a, &told)));
     Structure {
         significance: taken.significance.min(alike.significance),
+        ringing: taken.ringing.min(alike.ringing),
         ..taken
     }
 }
 
-fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> Structure {
+fn whitened_by(
+    problem: &Problem,
+    predictions: &[Prediction],
+    (alike, told): (&[f64], &[bool]),
+) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
     let mut correlations: Vec<f64> = Vec::new();
+    let mut ringing = 0.0_f64;
     for (k, prediction) in predictions.iter().enumerate() {
         let (input, judged) = problem.channels(k);
         let record = &problem.records[k];
@@ -84,7 +94,12 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
             white.push(whiten(alike[k], y - p, before).0);
             before = record.counts(i).then_some(y - p);
         }
-        correlations.push(neighbours(&white));
+        correlations.push(correlation(&white, 1));
+        if told[k] {
+            let chance = CHANCE / (white.len().max(1) as f64).sqrt();
+            let lags = (2..=FARTHEST).map(|lag| correlation(&white, lag).abs() - chance);
+            ringing = lags.fold(ringing, f64::max);
+        }
         for (from, to, phases) in pieces(input) {
             let mut own = vec![Bin::new(k, from, to); phases];
             for (start, end) in cuts(input, from, to) {
@@ -111,6 +126,7 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
             error: 0.0,
             significance: 0.0,
             correlation,
+            ringing,
             places: Vec::new(),
         };
     }
@@ -142,6 +158,7 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], alike: &[f64]) -> 
         error: scatter / total,
         significance: (heard - mean) / scatter,
         correlation,
+        ringing,
         places,
     }
 }
@@ -156,21 +173,28 @@ fn quiet(bins: &[Bin], pooled: f64) -> (f64, f64) {
     (mean, bins.iter().map(square).sum::<f64>().sqrt())
 }
 
-/// Lag-one correlation about the means of short stretches, so that slow structure does not pass for
-/// it.
-fn neighbours(white: &[f64]) -> f64 {
+/// Samples over which neighbours are looked for where noise was told by a residual.
+const FARTHEST: usize = 8;
+
+/// Standard errors of a correlation that chance may give the largest of them.
+const CHANCE: f64 = 3.0;
+
+/// Correlation of samples `lag` apart about the means of short stretches, so that slow structure does not pass
+/// for it.
+fn correlation(white: &[f64], lag: usize) -> f64 {
     let (mut square, mut product) = (0.0, 0.0);
     for stretch in white.chunks_exact(STRETCH) {
         let mean = stretch.iter().sum::<f64>() / STRETCH as f64;
         square += stretch.iter().map(|w| (w - mean).powi(2)).sum::<f64>();
-        product += stretch
-            .windows(2)
-            .map(|w| (w[0] - mean) * (w[1] - mean))
-            .sum::<f64>();
+        let pairs = stretch.iter().zip(&stretch[lag..]);
+        product += pairs.map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>();
     }
     match square > 0.0 {
         // A stretch's own mean takes a share of 1/STRETCH of every product.
-        true => product / square + 1.0 / STRETCH as f64,
+        true => {
+            let pairs = (STRETCH - lag) as f64 / (STRETCH - 1) as f64;
+            product / square / pairs + 1.0 / STRETCH as f64
+        }
         false => 0.0,
     }
 }
@@ -296,5 +320,47 @@ mod tests {
         }
         // One in 6.3 is 48; three standard deviations of that are 19.
         assert!((29..=67).contains(&beyond), "{beyond}");
+    }
+
+    /// What is left of a record of which `alike` of each sample goes on in the next, and a ringing this loud.
+    fn left(alike: f64, loud: f64, random: &mut ChaCha8Rng) -> (Record, Noise) {
+        let mut last = 0.0;
+        let left: Vec<f64> = (0..1200)
+            .map(|i| {
+                let normal: f64 = (0..12).map(|_| random.random::<f64>() - 0.5).sum();
+                last = alike * last + (1.0 - alike * alike).sqrt() * normal;
+                last + loud * (0.55 * f64::from(i)).sin()
+            })
+            .collect();
+        let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
+        let noise = crate::record::noise::from_residual(&left);
+        let record = Record {
+            force: time.iter().map(|t| t * (5.0 * t).sin()).collect(),
+            displacement: left,
+            time: Some(time),
+            ..Record::default()
+        };
+        (record, noise)
+    }
+
+    #[test]
+    fn what_rings_is_no_noise_and_noise_does_not_ring() {
+        let mut random = ChaCha8Rng::seed_from_u64(20261123);
+        let nothing = Prediction {
+            judged: vec![0.0; 1200],
+            ..Prediction::default()
+        };
+        let mut seen = |alike: f64, loud: f64| {
+            let (record, noise) = left(alike, loud, &mut random);
+            let problem = Problem::new(Form::Play, &[record]);
+            let found = structure(&problem, std::slice::from_ref(&nothing), &[noise]);
+            found.ringing > RANDOM
+        };
+        for alike in [0.0, 0.5, 0.9] {
+            let alarms = (0..200).filter(|_| seen(alike, 0.0)).count();
+            // Of 1400 correlations none comes by chance to what is 6.5 standard errors.
+            assert_eq!(alarms, 0, "{alike}");
+            assert!(seen(alike, 2.0), "{alike}");
+        }
     }
 }

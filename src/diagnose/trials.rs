@@ -213,11 +213,7 @@ fn penalty(problem: &Problem, free: usize) -> f64 {
 
 /// Count of values that were fitted: all but the neutral ones.
 fn free(cause: &dyn Cause, fitted: Option<&Acting>) -> usize {
-    let neutral = fitted.map_or(0, |acting| {
-        let both = cause.parameters().iter().zip(&acting.values);
-        both.filter(|(p, v)| p.neutral == Some(**v)).count()
-    });
-    cause.parameters().len() - neutral
+    fitted.map_or(cause.parameters().len(), Acting::free)
 }
 
 /// The fit with the refinements of the cause's law, where they bring more than they cost.

@@ -63,6 +63,7 @@ mod tests {
             error: 0.0,
             significance: -9.0,
             correlation: 0.05,
+            ringing: 0.0,
             places: Vec::new(),
         };
         let said = |most, chi| verdict(None, &random, &random, most, chi, 0.0);

@@ -210,7 +210,7 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
     let mut now = Reached::at(problem, coefficients, effects).begun(problem, steps.before);
     let mut damping = 0.0;
     // A limit that follows what the joint does makes the answer less than linear in the dictionary.
-    let limits = |a: &Acting| a.effect.place() == Place::SlipLimit;
+    let limits = |a: &Acting| a.acts_at(Place::SlipLimit);
     let implicit = now.effects.iter().any(limits);
     for round in 0..steps.longest {
         let slopes = slopes(problem, &now.coefficients, &now.effects, &now.predictions);
@@ -230,7 +230,7 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
             break;
         }
         let mut accepted = false;
-        for attempt in 0..TRIALS {
+        for _ in 0..TRIALS {
             let mut damped = normal.clone();
             (first..normal.size).for_each(|i| damped.damp(i, damping));
             if implicit && damping > 0.0 {
@@ -249,14 +249,7 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
             }
             let values = moved(&now.effects, &slopes, &solution[first..]);
             solution.truncate(columns);
-            let mut trial = Reached::at(problem, solution, values);
-            // Where the values went far, a dictionary that went straight with them suits them no more.
-            if attempt == 0 && !slopes.is_empty() && trial.misfit >= now.misfit {
-                let suited = trial.suited(problem);
-                if suited.misfit < trial.misfit {
-                    trial = suited;
-                }
-            }
+            let trial = Reached::at(problem, solution, values);
             let once = round == 0 && steps.most == 1;
             if trial.misfit.is_finite() && (trial.misfit < now.misfit || once) {
                 let fall = now.misfit - trial.misfit;

@@ -139,7 +139,8 @@ fn one(acting: &Acting, common: &Normal, free: &[usize], cross: &[f64], own: (f6
     let size = product / norm;
     let mut scaled = acting.clone();
     for (value, parameter) in scaled.values.iter_mut().zip(acting.effect.parameters()) {
-        if let Some(zero) = parameter.vanishes_at {
+        // Of two forms of a law the one that is not tried stays at nothing.
+        if let Some(zero) = parameter.vanishes_at.filter(|zero| zero != value) {
             let wanted = zero + size * (*value - zero);
             // A mass is begun no smaller than its start.
             let least = acting.effect.inertia(&acting.values);

@@ -44,9 +44,7 @@ const SHARE: f64 = 0.02;
 
 /// True where the split of the compliance shows: an effect works against the slip itself.
 pub fn shows(effects: &[Acting]) -> bool {
-    effects
-        .iter()
-        .any(|a| a.effect.place() == Place::BesideSlip)
+    effects.iter().any(|a| a.acts_at(Place::BesideSlip))
 }
 
 /// The compliance to start from, taken out of the network's own where its form is linear in it.

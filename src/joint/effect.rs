@@ -133,6 +133,10 @@ pub trait Effect: Send + Sync {
     fn name(&self) -> &'static str;
     /// Where it acts.
     fn place(&self) -> Place;
+    /// A second place where it acts with these values, of a law that has another form there.
+    fn also_at(&self, _values: &[f64]) -> Option<Place> {
+        None
+    }
     /// Glossary of its parameters.
     fn parameters(&self) -> &'static [Parameter];
     /// True where the sign of a value tells a side: what is on the other side of zero is another
@@ -210,6 +214,25 @@ pub struct Acting {
     pub effect: &'static dyn Effect,
     /// Values in the order of its glossary.
     pub values: Vec<f64>,
+}
+
+impl Acting {
+    /// Where it acts with its values: its place, and a second one if it has one.
+    pub fn places(&self) -> impl Iterator<Item = Place> + use<> {
+        let also = self.effect.also_at(&self.values);
+        std::iter::once(self.effect.place()).chain(also)
+    }
+
+    /// Count of its values that are not neutral.
+    pub fn free(&self) -> usize {
+        let both = self.effect.parameters().iter().zip(&self.values);
+        both.filter(|(p, value)| p.neutral != Some(**value)).count()
+    }
+
+    /// True where it acts at this place.
+    pub fn acts_at(&self, place: Place) -> bool {
+        self.places().any(|own| own == place)
+    }
 }
 
 impl std::fmt::Debug for Acting {

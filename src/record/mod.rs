@@ -6,6 +6,7 @@ pub mod noise;
 pub mod outliers;
 pub mod peaks;
 pub mod repeats;
+pub mod ringing;
 mod spectrum;
 pub mod split;
 pub mod thinned;

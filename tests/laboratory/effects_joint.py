@@ -58,50 +58,85 @@ class SlackGrowth(Scaled):
         }
 
 
+def hyperbolic(b, x, hardens):
+    """Direct (or inverse) hyperbolic sine of unit slope at rest, less the line, and its slope."""
+    if b == 0.0:
+        return 0.0, 0.0
+    if hardens:
+        x = min(max(x, -3.0), 3.0)
+        return np.sinh(b * x) / b - x, np.cosh(b * x) - 1.0
+    return np.arcsinh(b * x) / b - x, 1.0 / np.sqrt(1.0 + (b * x) ** 2) - 1.0
+
+
 class CubicStiffness(Scaled):
-    """The series spring hardens or softens, by inverse or direct hyperbolic sine."""
+    """A spring hardens or softens: the one in series, or one across the joint."""
 
     name = "cubic_stiffness"
-    acts = frozenset({"series"})
+    acts = frozenset({"series", "across"})
 
     def draw(self, scene, rng):
-        self.hardens = bool(rng.random() < 0.6)
+        self.across_joint = bool(rng.random() < 0.4)
+        self.hardens = bool(rng.random() < (0.8 if self.across_joint else 0.6))
         self.top = scene.largest("force")
+        self.way = scene.largest("displacement")
         self.soft = 1.0 / scene.joint.series
 
     def series(self, force):
-        b = 2.5 * self.strength
-        if b == 0.0:
+        if self.across_joint:
             return 0.0, 0.0
-        x = force / self.top
-        if self.hardens:
-            law, slope = np.arcsinh(b * x) / b, 1.0 / np.sqrt(1.0 + (b * x) ** 2)
-        else:
-            x = min(max(x, -3.0), 3.0)
-            law, slope = np.sinh(b * x) / b, np.cosh(b * x)
-        return self.soft * self.top * (law - x), self.soft * (slope - 1.0)
+        # Displacement over force: what hardens gives less.
+        law, slope = hyperbolic(2.5 * self.strength, force / self.top, not self.hardens)
+        return self.soft * self.top * law, self.soft * slope
+
+    def across(self, displacement):
+        if not self.across_joint:
+            return 0.0, 0.0
+        law, slope = hyperbolic(2.5 * self.strength, displacement / self.way, self.hardens)
+        return 0.5 * self.top * law, 0.5 * self.top / self.way * slope
 
     def describe(self):
-        return {"hardens": self.hardens, "curvature": 2.5 * self.strength}
+        return {
+            "across_joint": self.across_joint,
+            "hardens": self.hardens,
+            "curvature": 2.5 * self.strength,
+        }
 
 
 class JointOpening(Scaled):
-    """The seat gives more in tension than in compression."""
+    """The seat gives more in tension than in compression, or bears on one side of rest."""
 
     name = "joint_opening"
-    acts = frozenset({"series"})
+    acts = frozenset({"series", "across"})
 
     def draw(self, scene, rng):
+        self.across_joint = bool(rng.random() < 0.3)
         self.side = float(rng.choice([-1.0, 1.0]))
-        self.round = scene.largest("force") * rng.uniform(0.01, 0.08)
+        share = rng.uniform(0.01, 0.08)
+        self.round = scene.largest("force") * share
+        self.near = scene.largest("displacement") * share
         self.most = scene.largest("displacement") / scene.largest("force")
 
     def series(self, force):
+        if self.across_joint:
+            return 0.0, 0.0
         give = self.strength * self.most
         y, slope = softplus(self.side * force / self.round)
         return self.side * give * self.round * (y - np.log(2.0)), give * slope
 
+    def across(self, displacement):
+        if not self.across_joint:
+            return 0.0, 0.0
+        bears = self.strength / self.most
+        y, slope = softplus(self.side * displacement / self.near)
+        return self.side * bears * self.near * (y - np.log(2.0)), bears * slope
+
     def describe(self):
+        if self.across_joint:
+            return {
+                "bears": "positive" if self.side > 0 else "negative",
+                "stiffness_added_N_per_m": self.strength / self.most,
+                "rounding_m": self.near,
+            }
         return {
             "opens": "positive" if self.side > 0 else "negative",
             "compliance_added_m_per_N": self.strength * self.most,
@@ -136,28 +171,46 @@ class NormalLoadVariation(Scaled):
 
 
 class RunningIn(Scaled):
-    """Friction settles over the first cycles: up as asperities bed in, sometimes down."""
+    """Friction or stiffness settles over the first cycles: mostly up, as asperities bed in."""
 
     name = "running_in"
-    acts = frozenset({"limits", "after"})
+    acts = frozenset({"limits", "series", "after"})
 
     def draw(self, scene, rng):
+        self.of = "friction" if rng.random() < 0.6 else "stiffness"
         self.sign = -1.0 if rng.random() < 0.7 else 1.0  # below or above the settled value
         self.length = scene.largest("slip") * rng.uniform(2.0, 10.0)
+        self.soft = 0.5 * scene.largest("displacement") / scene.largest("force")
 
     def reset(self):
         self.path = 0.0
 
+    def left(self):
+        """Share of the change that is still to come."""
+        return 1.0 / (1.0 + (self.path / self.length) ** 1.5)
+
     def limits(self, base):
-        left = 1.0 / (1.0 + (self.path / self.length) ** 1.5)
-        high = (1.0 + self.sign * 0.5 * self.strength * left) * base
+        if self.of == "stiffness":
+            return -base, base
+        high = (1.0 + self.sign * 0.5 * self.strength * self.left()) * base
         return -high, high
+
+    def series(self, force):
+        if self.of == "friction":
+            return 0.0, 0.0
+        # Fresh surfaces are softer, or what makes them softer comes with the way.
+        share = self.left() if self.sign < 0 else 1.0 - self.left()
+        slope = self.strength * self.soft * share
+        return slope * force, slope
 
     def after(self, now):
         self.path += abs(now.moved)
 
     def describe(self):
-        return {"initial_change": self.sign * 0.5 * self.strength, "length_m": self.length}
+        change = self.sign * 0.5 * self.strength
+        if self.of == "stiffness":
+            change = -self.sign * self.strength * self.soft
+        return {"of": self.of, "initial_change": change, "length_m": self.length}
 
 
 RESOLVED = 12  # steps of the rig in the memory of a rate

@@ -73,7 +73,7 @@ QUANTITIES = [
     Quantity("pinning", "gap_positive", _gap("positive")[0], False, _gap("positive")[1]),
     Quantity("pinning", "gap_negative", _gap("negative")[0], False, _gap("negative")[1]),
     Quantity("clearance", "gap", _where("gap_m", seating=("tanh",))),
-    Quantity("joint_opening", "compliance", _read("compliance_added_m_per_N"), False),
+    Quantity("joint_opening", "compliance", lambda t: t.get("compliance_added_m_per_N"), False),
     Quantity("asymmetric_friction", "asymmetry", _asymmetry),
     Quantity(
         "preload_loss",

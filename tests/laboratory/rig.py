@@ -28,7 +28,7 @@ class Effect:
     """A specimen or a sensor that is not the ideal joint; the base class changes nothing.
 
     `acts` names the hooks a subclass overrides, so that the rig asks only for those:
-    limits, contact, series, damper, after, read_force, read_displacement.
+    limits, contact, series, across, damper, after, read_force, read_displacement.
     """
 
     name = "clean"
@@ -48,6 +48,10 @@ class Effect:
 
     def series(self, force):
         """Further displacement in the load path and its slope at this force."""
+        return 0.0, 0.0
+
+    def across(self, displacement):
+        """Force across the whole specimen and its slope at this displacement."""
         return 0.0, 0.0
 
     def damper(self, velocity):
@@ -87,6 +91,7 @@ def drive(joint, time, command, by_force, effect=None):
     acts = effect.acts
     moving_limits, has_contact = "limits" in acts, "contact" in acts
     has_series, has_damper, has_after = "series" in acts, "damper" in acts, "after" in acts
+    has_across = "across" in acts
 
     base, each, residual = joint.limits, joint.stiffness_each, joint.residual
     soft = 1.0 / joint.series
@@ -134,6 +139,9 @@ def drive(joint, time, command, by_force, effect=None):
                 force, rise = network + extra, slope + more * stretch / dt
             else:
                 force, rise = network, slope
+            if has_across:
+                extra, more = effect.across(displacement)
+                force, rise = force + extra, rise + more * stretch
             if by_force:
                 miss, gradient = force - goal, rise
             else:

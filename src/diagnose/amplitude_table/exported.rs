@@ -73,12 +73,13 @@ pub fn joint(levels: &Levels, model: &Model, known: &Known) -> Result<Joint, Joi
 }
 
 /// Values of the catalogue's parameters for an effect of that size; `stiffness` is that of the
-/// joint before slip, by which a cube of the displacement becomes one of the force,
-/// `b = −κ/K⁴` to leading order.
+/// joint before slip, by which a cube of the displacement that softens becomes one of the force,
+/// `b = −κ/K⁴` to leading order: that holds at any load, where a force across the joint would fall.
 pub fn parameters(shown: Shown, size: f64, stiffness: f64) -> Vec<f64> {
     match shown {
         Shown::Viscous | Shown::Quadratic => vec![size],
-        Shown::Cubic => vec![-size / stiffness.powi(4), 0.0],
+        Shown::Cubic if size > 0.0 => vec![0.0, 0.0, size],
+        Shown::Cubic => vec![-size / stiffness.powi(4), 0.0, 0.0],
         Shown::Pinning { gap } => vec![size, gap, gap, 0.0, 1.0],
     }
 }

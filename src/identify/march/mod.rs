@@ -85,7 +85,9 @@ impl<'a> March<'a> {
         let elastic = coefficients[0];
         let mut has = [false; 7];
         for acting in effects {
-            has[index(acting.effect.place())] = true;
+            for place in acting.places() {
+                has[index(place)] = true;
+            }
         }
         // Without such effects an operator beyond the input's range is an elastic one: the
         // dictionary has that already.
@@ -232,7 +234,7 @@ impl<'a> March<'a> {
         }
         let mut limits = (1.0, 1.0);
         for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            if acting.effect.place() == Place::SlipLimit {
+            if acting.acts_at(Place::SlipLimit) {
                 let limit = acting.effect.slip_limit(&acting.values, &self.last, memory);
                 limits = (limits.0 * limit.positive, limits.1 * limit.negative);
             }

@@ -10,7 +10,7 @@ impl March<'_> {
         }
         let mut sum = (0.0, 0.0);
         for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            if acting.effect.place() == Place::BesideSlip {
+            if acting.acts_at(Place::BesideSlip) {
                 let response = acting.effect.beside_slip(&acting.values, slip, memory);
                 sum = (sum.0 + response.value, sum.1 + response.slope);
             }
@@ -24,12 +24,14 @@ impl March<'_> {
         }
         let mut sum = (0.0, 0.0);
         for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            let response = match acting.effect.place() {
-                Place::Spring => acting.effect.spring(&acting.values, force),
-                Place::InSeries => acting.effect.in_series(&acting.values, force, step, memory),
-                _ => continue,
-            };
-            sum = (sum.0 + response.value, sum.1 + response.slope);
+            for place in acting.places() {
+                let response = match place {
+                    Place::Spring => acting.effect.spring(&acting.values, force),
+                    Place::InSeries => acting.effect.in_series(&acting.values, force, step, memory),
+                    _ => continue,
+                };
+                sum = (sum.0 + response.value, sum.1 + response.slope);
+            }
         }
         sum
     }
@@ -42,7 +44,7 @@ impl March<'_> {
         let (velocity, [per_displacement, ..]) = self.velocity(displacement, step);
         let mut sum = (0.0, 0.0);
         for acting in self.effects {
-            if acting.effect.place() == Place::BesideJoint {
+            if acting.acts_at(Place::BesideJoint) {
                 let response = acting
                     .effect
                     .beside_joint(&acting.values, displacement, velocity);

@@ -8,7 +8,8 @@ use crate::joint::effect::{Acting, Place, Response, Situation, SlipLimit};
 #[derive(Debug, Clone)]
 pub(super) struct Law {
     pub acting: Acting,
-    pub place: Place,
+    /// Where it acts, and where else.
+    pub places: [Option<Place>; 2],
     pub span: Range<usize>,
 }
 
@@ -31,7 +32,10 @@ impl Laws {
             let end = length + acting.effect.memory();
             laws.push(Law {
                 acting: acting.clone(),
-                place: acting.effect.place(),
+                places: [
+                    Some(acting.effect.place()),
+                    acting.effect.also_at(&acting.values),
+                ],
                 span: length..end,
             });
             length = end;
@@ -117,7 +121,7 @@ impl Laws {
     }
 
     fn at(&self, place: Place) -> impl Iterator<Item = (&Law, &[f64])> {
-        self.iter().filter(move |(law, _)| law.place == place)
+        self.iter().filter(move |(law, _)| law.acts_at(place))
     }
 
     fn sum(&self, place: Place, answer: impl Fn(&Law, &[f64]) -> Response) -> Response {
@@ -128,6 +132,14 @@ impl Laws {
 }
 
 impl Law {
+    /// Where it acts.
+    pub fn places(&self) -> impl Iterator<Item = Place> {
+        self.places.into_iter().flatten()
+    }
+    /// True where it acts at this place.
+    pub fn acts_at(&self, place: Place) -> bool {
+        self.places.contains(&Some(place))
+    }
     pub fn beside_slip(&self, slip: f64, memory: &[f64]) -> Response {
         let acting = &self.acting;
         acting.effect.beside_slip(&acting.values, slip, memory)

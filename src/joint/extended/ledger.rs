@@ -40,10 +40,12 @@ pub(super) struct Leg {
 impl Ledger {
     /// An account at rest under zero force.
     pub fn new(laws: &Laws) -> Ledger {
-        let series = laws.iter().map(|(law, memory)| match law.place {
-            Place::InSeries => law.in_series(0.0, 0.0, memory).value,
-            _ => 0.0,
-        });
+        let series = laws
+            .iter()
+            .map(|(law, memory)| match law.acts_at(Place::InSeries) {
+                true => law.in_series(0.0, 0.0, memory).value,
+                false => 0.0,
+            });
         Ledger {
             lost: 0.0,
             dissipation: 0.0,
@@ -68,7 +70,12 @@ impl Ledger {
     pub fn work(&mut self, laws: &Laws, leg: &Leg) {
         let accounts = self.series.iter_mut().zip(&mut self.works);
         for ((series, work), (law, memory)) in accounts.zip(laws.iter()) {
-            *work = work_of(law, memory, leg, series);
+            *work = Work::default();
+            for place in law.places() {
+                let one = work_of(place, (law, memory), leg, series);
+                work.elastic += one.elastic;
+                work.other += one.other;
+            }
         }
     }
 
@@ -123,9 +130,9 @@ pub(super) struct Work {
     pub other: f64,
 }
 
-fn work_of(law: &Law, memory: &[f64], leg: &Leg, series: &mut f64) -> Work {
+fn work_of(place: Place, (law, memory): (&Law, &[f64]), leg: &Leg, series: &mut f64) -> Work {
     let (from, to) = (&leg.from, &leg.to);
-    match law.place {
+    match place {
         Place::BesideSlip => Work {
             elastic: integral(from.slip, to.slip, |u| law.beside_slip(u, memory).value),
             other: 0.0,

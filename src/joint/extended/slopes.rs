@@ -33,9 +33,13 @@ impl End<'_> {
         // The network's springs take what its sliders do not, and K_1 its own.
         let mut stored = force - self.sliding + self.flexibility * force * point.load_slope;
         for (law, memory) in self.laws.iter() {
-            let (elastic, other) = self.work(law, memory);
-            if law.place == Place::BesideSlip {
-                stored -= elastic; // its force is no force of the network
+            let (mut elastic, mut other) = (0.0, 0.0);
+            for place in law.places() {
+                let (one, rest) = self.work(place, law, memory);
+                (elastic, other) = (elastic + one, other + rest);
+                if place == Place::BesideSlip {
+                    stored -= one; // its force is no force of the network
+                }
             }
             let kept = self.kept(law, memory, scratch).unwrap_or(elastic);
             lost += elastic + other - kept;
@@ -50,10 +54,10 @@ impl End<'_> {
         }
     }
 
-    /// Slopes of the work on one law, as the ledger books it \[N\].
-    fn work(&self, law: &Law, memory: &[f64]) -> (f64, f64) {
+    /// Slopes of the work on one law at one place, as the ledger books it \[N\].
+    fn work(&self, place: Place, law: &Law, memory: &[f64]) -> (f64, f64) {
         let (point, now) = (self.point, self.now);
-        match law.place {
+        match place {
             Place::BesideSlip => (law.beside_slip(now.slip, memory).value, 0.0),
             Place::BesideJoint => {
                 let still = law.beside_joint(now.displacement, 0.0);
