@@ -125,7 +125,7 @@ impl Trajectory {
     }
 }
 
-/// One effect: a law at one place. Values of its parameters come as a slice in the order of
+/// One effect: a law at one place, or of two forms at two. Values of its parameters come as a slice in the order of
 /// [`Effect::parameters`]; its history lives in a slice of [`Effect::memory`] numbers that the
 /// simulation owns, so that saving and restoring a simulation needs nothing from the effect.
 pub trait Effect: Send + Sync {
