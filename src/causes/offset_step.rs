@@ -63,7 +63,10 @@ impl Effect for OffsetStep {
             return Vec::new();
         };
         let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - middle) / width);
-        truth.time.iter().map(|t| values[0] * share(t)).collect()
+        // A reading is set to zero before each record: it does not begin with the jump of one before it.
+        let before = truth.time.first().map_or(0.0, share);
+        let times = truth.time.iter();
+        times.map(|t| values[0] * (share(t) - before)).collect()
     }
 }
 
@@ -169,8 +172,17 @@ mod tests {
         assert!(added[35].abs() < 1e-6 && (added[45] - 2.0).abs() < 1e-6);
         let slow = OffsetStep.channel(&[2.0, 4.0, SLOWEST], &truth);
         let width = (10.0 * (-SLOWEST).exp()).hypot(10.0 / 101.0);
-        let expected = 1.0 + (2.0_f64 * 0.5 / width).tanh();
+        let expected = (2.0_f64 * 0.5 / width).tanh() - (2.0_f64 * -4.0 / width).tanh();
         assert!((slow[45] - expected).abs() < 1e-12);
+        // Of a jump in the record before this one nothing is read.
+        let later = Trajectory {
+            begins: 10.0,
+            ..truth
+        };
+        assert_eq!(
+            OffsetStep.channel(&[2.0, 4.0, 16.0], &later),
+            vec![0.0; 101]
+        );
         assert!(
             OffsetStep
                 .channel(&[2.0, 4.0, 16.0], &Trajectory::default())

@@ -5,7 +5,7 @@ use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
-use super::trials::{ALARM, Effort, Trial, alarm, dispersion, trials};
+use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion, trials};
 use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that a further cause must explain, or another set of what a set leaves: a
@@ -119,7 +119,7 @@ impl Grow<'_> {
             match self.next(&current, &trials, enough) {
                 Some(fit) if second => current = fit,
                 Some(fit) => {
-                    current = prune(problem, fit, self.least, first);
+                    current = prune(self.bench, fit, self.least, first);
                     break;
                 }
                 None => break,
@@ -200,8 +200,10 @@ pub(super) fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
     least.max(ALARM * dispersion(problem, fit))
 }
 
-/// Drops causes that the others have made needless; `least` is what one has to take away.
-pub(super) fn prune(problem: &Problem, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
+/// Drops causes that the others have made needless; `least` is what one has to take away. A law whose values
+/// become those of another cause takes nobody's place: a rate that is remembered for ever is a path.
+pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
+    let problem = &bench.train;
     while fit.effects.len() > 1 {
         let without: Option<Fit> = (0..fit.effects.len())
             .map(|drop| {
@@ -209,6 +211,7 @@ pub(super) fn prune(problem: &Problem, mut fit: Fit, least: f64, first: &[Trial]
                 effects.remove(drop);
                 places::alone(problem, &fit, effects, first)
             })
+            .filter(|less| all_plausible(&bench.scale, less))
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
             Some(less) if less.misfit - fit.misfit < share(problem, &fit, least) => fit = less,

@@ -2,7 +2,7 @@
 
 use super::prepare::Bench;
 use super::tested::{Prospect, beyond_unseen};
-use super::trials::{ALARM, Effort, Trial, dispersion, trials};
+use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
 use crate::identify::{Fit, Problem, refit, without};
@@ -84,6 +84,7 @@ pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Ve
     places
         .iter()
         .flat_map(|place| place.others().map(move |t| (place, &t.fit)))
+        .filter(|(_, fit)| all_plausible(&bench.scale, fit))
         .map(|(place, fit)| (Prospect::of(bench, best, fit).total(), place, fit))
         .filter(|(gain, ..)| *gain > least)
         .max_by(|(a, ..), (b, ..)| a.total_cmp(b))

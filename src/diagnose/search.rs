@@ -111,7 +111,7 @@ fn settled(
     }
     let share = share(&bench.train, &best, least);
     if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
-        best = prune(&bench.train, best, least, first);
+        best = prune(bench, best, least, first);
         places = places::places(bench, timed, &best, first, None);
     }
     (best, places)

@@ -4,6 +4,7 @@
 use super::gain::ratio;
 use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
+use super::trials::all_plausible;
 use crate::identify::{Fit, refit};
 use crate::record::noise::independence;
 
@@ -37,6 +38,7 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
                 };
                 (upper, less)
             })
+            .filter(|(_, less)| all_plausible(&bench.scale, less))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         match weakest {
             Some((upper, less)) if upper >= 1.0 => fit = less,

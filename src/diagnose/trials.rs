@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::causes::{CATALOGUE, Cause, Scale};
+use crate::causes::{CATALOGUE, Cause, Scale, find};
 use crate::identify::{Fit, Problem, Score, refit, refit_below, scores};
 use crate::joint::effect::Acting;
 
@@ -169,6 +169,13 @@ pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
     (fit.misfit / problem.rows().max(1) as f64).max(1.0)
 }
 
+/// True where no cause of a set has values that are another cause's.
+pub fn all_plausible(scale: &Scale, fit: &Fit) -> bool {
+    let plausible =
+        |a: &Acting| find(a.effect.name()).is_none_or(|c| c.plausible(&a.values, scale));
+    fit.effects.iter().all(plausible)
+}
+
 type Scored = (&'static dyn Cause, Vec<Score>);
 
 /// Every usable cause with the scores of its shapes, best first.
@@ -277,5 +284,32 @@ mod tests {
         assert!(!score("viscous_damping", &[1.0], 0.0));
         // A mass changes the turning points in jumps, and foretells what it takes away.
         assert!(!score("fixture_inertia", &[1.0], 0.0));
+    }
+
+    #[test]
+    fn a_set_is_as_plausible_as_its_causes() {
+        let scale = Scale {
+            period: 0.05,
+            slowest: 0.05,
+            ..Scale::default()
+        };
+        let set = |memory: f64| Fit {
+            coefficients: Vec::new(),
+            offsets: Vec::new(),
+            effects: [
+                ("viscous_damping", vec![1.0]),
+                ("velocity_weakening", vec![0.1, 1e-3, memory, 1.0]),
+            ]
+            .map(|(name, values)| Acting {
+                effect: find(name).unwrap().effect(),
+                values,
+            })
+            .to_vec(),
+            series: None,
+            misfit: 0.0,
+        };
+        assert!(all_plausible(&scale, &set(1e-3)));
+        // A rate that is remembered for hundreds of cycles.
+        assert!(!all_plausible(&scale, &set(20.0)));
     }
 }
