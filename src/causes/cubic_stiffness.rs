@@ -1,4 +1,4 @@
-//! `cubic_stiffness`: a spring before the interface softens or hardens, or one beside the joint hardens.
+//! `cubic_stiffness`: a spring before the interface, or one across the joint, softens or hardens.
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response};

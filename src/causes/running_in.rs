@@ -65,7 +65,7 @@ impl Effect for RunningIn {
     fn also_at(&self, values: &[f64]) -> Option<Place> {
         (values[4] != 0.0).then_some(Place::InSeries)
     }
-    /// Energy and path; both before the last step that took time, which its compliance went by; slip.
+    /// Energy and path before the last step that took time, which its compliance went by; both behind it; slip.
     fn memory(&self) -> usize {
         5
     }
@@ -74,18 +74,14 @@ impl Effect for RunningIn {
         4
     }
     fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
-        if let [energy, path, held_energy, held_path, slip] = memory {
-            if now.step > 0.0 {
-                (*held_energy, *held_path) = (*energy, *path);
-            }
-            *energy = now.dissipation;
-            let mut followed = [*path, *slip];
-            follow_path(now, &mut followed);
-            [*path, *slip] = followed;
+        if now.step > 0.0 {
+            memory.copy_within(2..4, 0);
         }
+        memory[2] = now.dissipation;
+        follow_path(now, &mut memory[3..]);
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
-        let limit = 1.0 - values[0] * left((last.dissipation, memory[1]), values);
+        let limit = 1.0 - values[0] * left((last.dissipation, memory[3]), values);
         SlipLimit {
             positive: limit,
             negative: limit,
@@ -93,7 +89,7 @@ impl Effect for RunningIn {
     }
     /// Where no time passes the compliance stays.
     fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {
-        let work = if step > 0.0 { memory } else { &memory[2..] };
+        let work = if step > 0.0 { &memory[2..] } else { memory };
         let slope = RunningIn::compliance(values, work);
         Response {
             value: slope * force,
@@ -103,7 +99,7 @@ impl Effect for RunningIn {
     }
     /// Of a spring of the present compliance; what it changes by under load is lost, or given.
     fn stored_energy(&self, values: &[f64], now: &Situation, memory: &[f64]) -> Option<f64> {
-        Some(0.5 * RunningIn::compliance(values, &memory[2..]) * now.force * now.force)
+        Some(0.5 * RunningIn::compliance(values, memory) * now.force * now.force)
     }
 }
 
@@ -171,7 +167,7 @@ mod tests {
         let at = |softness: f64, dissipation: f64| {
             let values = [0.0, 2.0, 0.0, 0.0, softness];
             let response =
-                RunningIn.in_series(&values, 30.0, 0.1, &[dissipation, 0.0, 7.0, 7.0, 0.0]);
+                RunningIn.in_series(&values, 30.0, 0.1, &[7.0, 7.0, dissipation, 0.0, 0.0]);
             assert_eq!(response.value, 30.0 * response.slope);
             response.slope
         };
@@ -195,9 +191,9 @@ mod tests {
             RunningIn.remember(&[], &now, &mut memory);
         }
         // What answers in no time goes by the work before the step that took some.
-        assert_eq!(memory, [4.0, 1.5, 1.0, 0.5, -0.5]);
+        assert_eq!(memory, [1.0, 0.5, 4.0, 1.5, -0.5]);
         let values = [0.0, 2.0, 0.0, 0.0, 1e-3];
         let at = |step, memory: &[f64]| RunningIn.in_series(&values, 1.0, step, memory).value;
-        assert_eq!(at(0.0, &memory), at(0.1, &[1.0, 0.5, 0.0, 0.0, 0.0]));
+        assert_eq!(at(0.0, &memory), at(0.1, &[0.0, 0.0, 1.0, 0.5, 0.0]));
     }
 }

@@ -233,28 +233,23 @@ fn refined(problem: &Problem, scale: &Scale, cause: &dyn Cause, fit: Fit) -> Fit
         return fit;
     };
     let values = cause.refined(&fit.effects[place].values, scale);
-    let fit = better(problem, cause, fit, (place, values));
+    let fit = better(problem, fit, (place, values));
     match cause.begun_anew(&fit.effects[place].values) {
-        Some(values) => better(problem, cause, fit, (place, values)),
+        Some(values) => better(problem, fit, (place, values)),
         None => fit,
     }
 }
 
 /// The refit from other values of one of the causes, where it brings more than they cost.
-fn better(
-    problem: &Problem,
-    cause: &dyn Cause,
-    fit: Fit,
-    (place, values): (usize, Vec<f64>),
-) -> Fit {
-    let before = free(cause, Some(&fit.effects[place]));
+fn better(problem: &Problem, fit: Fit, (place, values): (usize, Vec<f64>)) -> Fit {
+    let before = fit.effects[place].free();
     let mut effects = fit.effects.clone();
     effects[place].values = values;
     if effects == fit.effects {
         return fit;
     }
     let other = refit(problem, &fit, effects);
-    let after = free(cause, Some(&other.effects[place]));
+    let after = other.effects[place].free();
     let more = after.saturating_sub(before);
     let fall = (fit.misfit - other.misfit) / dispersion(problem, &other);
     if fall > penalty(problem, more) + REFINED {
