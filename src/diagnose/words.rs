@@ -6,6 +6,7 @@ use super::structure::Structure;
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
 use crate::record::Record;
+use crate::record::written::quantity;
 
 /// The verdict in a sentence or two.
 pub fn summary(findings: &Findings) -> String {
@@ -138,12 +139,14 @@ fn begins(record: &Record, beginning: &Beginning, form: Form) -> Option<String> 
     let first = channel.first().copied().unwrap_or(0.0);
     if let Some(last) = beginning.turned.last() {
         return Some(format!(
-            "Record {name} begins in the middle of a test: its {drive} came from a turn at {last:.3e} {unit} or so."
+            "Record {name} begins in the middle of a test: its {drive} came from a turn at {} or so.",
+            quantity(*last, unit)
         ));
     }
     if beginning.zero != 0.0 {
         return Some(format!(
-            "Record {name} begins at rest at a {drive} of {first:.3e} {unit}, which was taken for the zero of its sensor."
+            "Record {name} begins at rest at a {drive} of {}, which was taken for the zero of its sensor.",
+            quantity(first, unit)
         ));
     }
     (first.abs() > NOT_ZERO * largest).then(|| {

@@ -10,6 +10,7 @@ pub mod ringing;
 mod spectrum;
 pub mod split;
 pub mod thinned;
+pub mod written;
 
 /// Force and displacement of one test.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,10 +3,10 @@
 use minijinja::context;
 use minijinja::value::Value;
 
-use super::quantity::{number, percent, quantity};
 use crate::diagnose::Findings;
 use crate::diagnose::findings::Errors;
 use crate::diagnose::levels::Compared;
+use crate::record::written::{number, percent, quantity};
 
 /// Levels in the table at most; diagnosis.json has all.
 const MOST_LEVELS: usize = 60;

@@ -6,11 +6,12 @@ use minijinja::value::Value;
 use super::CausePage;
 use super::compared::errors;
 use super::plots::Figure;
-use super::quantity::{estimate, number, percent, quantity};
+use super::quantity::estimate;
 use super::symbols::marked_up;
 use super::wording;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{Candidate, Estimate, NamedCause, Verdict};
+use crate::record::written::{number, percent, quantity};
 
 /// Verdict, warning and the figures that sum the page up.
 pub(super) fn banner(findings: &Findings) -> Value {

@@ -3,11 +3,11 @@
 use minijinja::context;
 use minijinja::value::Value;
 
-use super::quantity::{number, percent, quantity};
 use super::wording::in_words;
 use crate::diagnose::Findings;
 use crate::diagnose::experiment::dummy::Ruling;
 use crate::diagnose::experiment::separability::TOLD;
+use crate::record::written::{number, percent, quantity};
 
 /// Blocks of the next experiment, in words.
 pub(super) fn blocks(findings: &Findings) -> Vec<String> {

@@ -1,9 +1,10 @@
 //! What the engineer reads on the screen: fixed sections, the verdict first, a screenful at most.
 
-use super::quantity::{estimate, quantity};
+use super::quantity::estimate;
 use super::wording;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{Estimate, NamedCause};
+use crate::record::written::quantity;
 
 /// Lines at most; what does not fit is counted and stands in diagnosis.json.
 const MOST_LINES: usize = 40;

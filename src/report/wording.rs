@@ -1,8 +1,8 @@
 //! Sentences that the screen and the page share.
 
-use super::quantity::{number, percent, quantity};
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{NamedCause, Verdict};
+use crate::record::written::{number, percent, quantity};
 
 /// How the prediction of unseen data changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

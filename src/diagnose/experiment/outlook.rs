@@ -13,6 +13,7 @@ use crate::diagnose::search::Found;
 use crate::diagnose::trials::Trial;
 use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
+use crate::record::written::quantity;
 
 /// What lies beyond the verdict.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -109,13 +110,16 @@ fn tell(findings: &mut Findings, map: &mut Map, problem: &Problem, bench: &Bench
 
 /// What a record cannot show, in words.
 fn sentence(line: &Separable) -> String {
-    let values = line
+    let glossary = find(&line.name).map_or(&[][..], |cause| cause.effect().parameters());
+    let neutral = |name: &str, value: f64| {
+        let mut those = glossary.iter().filter(|p| p.name == name);
+        those.any(|p| p.neutral == Some(value))
+    };
+    let acting = line
         .values
         .iter()
-        .map(|(name, value, unit)| match unit.as_str() {
-            "1" | "" => format!("{name} {value:.3e}"),
-            unit => format!("{name} {value:.3e} {unit}"),
-        });
+        .filter(|(name, value, _)| !neutral(name, *value));
+    let values = acting.map(|(name, value, unit)| format!("{name} {}", quantity(*value, unit)));
     let values = values.collect::<Vec<_>>().join(", ");
     let (energy, motion) = (100.0 * ENERGY, 100.0 * MOTION);
     let size = format!(

@@ -1,5 +1,6 @@
 //! Load programs: blocks of sine, triangle and hold, played on an even clock.
 
+use crate::record::written::quantity;
 use std::f64::consts::{PI, TAU};
 
 /// What the rig can do.
@@ -42,16 +43,16 @@ impl Block {
     pub fn words(&self, rig: &Rig, unit: &str) -> String {
         let wave = if self.ramps { "ramps" } else { "sine" };
         let mut words = format!(
-            "{} cycles of {wave}, amplitude {:.3e} {unit}, {:.3e} Hz",
+            "{} cycles of {wave}, amplitude {}, {}",
             self.cycles,
-            self.amplitude * rig.reach,
-            self.rate * rig.rate
+            quantity(self.amplitude * rig.reach, unit),
+            quantity(self.rate * rig.rate, "Hz")
         );
         if self.mean != 0.0 {
-            words += &format!(", about {:.3e} {unit}", self.mean * rig.reach);
+            words += &format!(", about {}", quantity(self.mean * rig.reach, unit));
         }
         if self.hold > 0.0 {
-            words += &format!(", then {:.3e} s of rest at the peak", self.hold);
+            words += &format!(", then {} of rest at the peak", quantity(self.hold, "s"));
         }
         words
     }

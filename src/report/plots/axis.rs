@@ -1,6 +1,6 @@
 //! One axis: its range in a convenient unit, its ticks at round numbers, its title.
 
-use super::super::quantity::Scale;
+use crate::record::written::Scale;
 
 /// Room left free at either end, as a share of the range.
 const MARGIN: f64 = 0.04;

@@ -8,8 +8,8 @@ use super::canvas::{FINE, fine, ink, on_area};
 use super::{Figure, palette};
 use crate::diagnose::Findings;
 use crate::diagnose::findings::Candidate;
+use crate::record::written::number;
 use crate::report::ReportError;
-use crate::report::quantity::number;
 use crate::report::wording::in_words;
 
 /// Bars at most; the table beneath has all.
