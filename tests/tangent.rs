@@ -141,6 +141,7 @@ fn effects() -> Vec<Acting> {
         period: 0.02,
         slowest: 0.02,
         step: STEP,
+        judges_force: true,
         ringing: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);

@@ -1,15 +1,16 @@
-//! `ac_coupling`: the displacement channel forgets what stands still.
+//! `ac_coupling`: a channel forgets what stands still.
 
 use super::creep::lag;
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::parameters::Parameter;
 
 /// A first-order high-pass, `U_meas = U − l` with `l̇ = 2π f_c (U − l)`, solved exactly for a
-/// displacement that goes straight from sample to sample; a second one may follow it.
+/// displacement that goes straight from sample to sample; a second one may follow it. The load cell may have it
+/// instead, `F_meas = F − l` with `f_F`.
 pub struct AcCoupling;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "corner_frequency",
         symbol: "f_c",
@@ -17,7 +18,7 @@ static PARAMETERS: [Parameter; 2] = [
         lower: 0.0,
         upper: 1e4,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "frequency below which the channel loses the displacement",
     },
     Parameter {
@@ -29,6 +30,16 @@ static PARAMETERS: [Parameter; 2] = [
         vanishes_at: None,
         neutral: Some(0.0),
         meaning: "corner of a second stage over that of the first; 0: there is none",
+    },
+    Parameter {
+        name: "cell_corner",
+        symbol: "f_F",
+        unit: "Hz",
+        lower: 0.0,
+        upper: 1e4,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "frequency below which the load cell loses the force",
     },
 ];
 
@@ -60,12 +71,20 @@ impl Effect for AcCoupling {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let mut all = lost(values[0], &truth.time, &truth.displacement);
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        chain::places(values[0] != 0.0, values[2] != 0.0)
+    }
+    fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
+        let corner = match place {
+            Place::ForceChannel => values[2],
+            _ => values[0],
+        };
+        let channel = truth.channel(place);
+        let mut all = lost(corner, &truth.time, channel);
         if values[1] > 0.0 {
-            let both = truth.displacement.iter().zip(&all);
+            let both = channel.iter().zip(&all);
             let passed: Vec<f64> = both.map(|(u, lost)| u - lost).collect();
-            let further = lost(values[0] * values[1], &truth.time, &passed);
+            let further = lost(corner * values[1], &truth.time, &passed);
             all.iter_mut().zip(&further).for_each(|(a, f)| *a += f);
         }
         all.iter().map(|lost| -lost).collect()
@@ -75,8 +94,8 @@ impl Effect for AcCoupling {
 impl Cause for AcCoupling {
     fn page(&self) -> Page {
         Page {
-            happens: "The amplifier is AC-coupled, or the sensor (piezoelectric, velocity integrated) answers to changes only: slow parts of the displacement leak away.",
-            sign: "Held displacements and mean values fade to zero by the exponential; slow loops are turned ahead of the force and can enclose negative area; fast ones are right.",
+            happens: "The amplifier is AC-coupled, or the sensor (piezoelectric, velocity integrated) or the load cell (piezoelectric) answers to changes only: slow parts leak away.",
+            sign: "Held readings and mean values fade to zero by the exponential; slow loops are turned ahead of the force and can enclose negative area; fast ones are right.",
             mistaken_for: &[
                 "creep",
                 "sensor_delay",
@@ -84,7 +103,7 @@ impl Cause for AcCoupling {
                 "viscous_damping",
             ],
             separated_by: "A hold under load: the reading comes back to zero here and goes on with creep; two decades of frequency: the phase lead falls with frequency while that of a delay grows; a dummy specimen.",
-            formula: "U_measured = U - l, dl/dt = 2 pi f_c (U - l), and once more with r f_c",
+            formula: "U_measured = U - l, dl/dt = 2 pi f_c (U - l), and once more with r f_c; or so of the load cell, with f_F",
             source: "First-order high-pass of an AC-coupled or charge amplifier.",
         }
     }
@@ -95,10 +114,15 @@ impl Cause for AcCoupling {
         true
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.002 / scale.period, 0.0]]
+        let corner = 0.002 / scale.period;
+        let mut starts = vec![vec![corner, 0.0, 0.0]];
+        if scale.judges_force {
+            starts.push(vec![0.0, 0.0, corner]);
+        }
+        starts
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], 0.5]
+        vec![values[0], 0.5, values[2]]
     }
 }
 
@@ -115,7 +139,7 @@ mod tests {
             force: vec![],
             time,
         };
-        let added = AcCoupling.channel(&[0.5, 0.0], &truth);
+        let added = AcCoupling.channel(&[0.5, 0.0, 0.0], Place::DisplacementChannel, &truth);
         for (added, t) in added.iter().zip(&truth.time) {
             let left = (-std::f64::consts::PI * t).exp();
             assert!((3.0 + added - 3.0 * left).abs() < 1e-12);
@@ -131,7 +155,7 @@ mod tests {
             force: vec![],
             time,
         };
-        let added = AcCoupling.channel(&[0.5, 1.0], &truth);
+        let added = AcCoupling.channel(&[0.5, 1.0, 0.0], Place::DisplacementChannel, &truth);
         for (added, t) in added.iter().zip(&truth.time) {
             let x = std::f64::consts::PI * t;
             // The step response of a double pole, (1 − x) exp(−x).
@@ -149,7 +173,7 @@ mod tests {
             force: vec![],
             time,
         };
-        let added = AcCoupling.channel(&[0.2, 0.0], &truth);
+        let added = AcCoupling.channel(&[0.2, 0.0, 0.0], Place::DisplacementChannel, &truth);
         let samples = truth.time.iter().zip(&truth.displacement).zip(&added);
         for ((time, displacement), added) in samples.skip(3000) {
             let phase = rate * time + std::f64::consts::FRAC_PI_4;

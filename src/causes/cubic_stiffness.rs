@@ -59,8 +59,9 @@ impl Effect for CubicStiffness {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn also_at(&self, values: &[f64]) -> Option<Place> {
-        (values[2] != 0.0).then_some(Place::BesideJoint)
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        let also = (values[2] != 0.0).then_some(Place::BesideJoint);
+        [Some(self.place()), also]
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
         Response {

@@ -42,7 +42,7 @@ impl Effect for DisplacementDrift {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         let start = truth.time.first().copied().unwrap_or(0.0);
         let (rate, fading) = (values[0], values[1]);
         let gone = |time: f64| match fading > 0.0 {
@@ -96,12 +96,12 @@ mod tests {
             displacement: vec![0.0; 3],
         };
         assert_eq!(
-            DisplacementDrift.channel(&[0.5, 0.0], &truth),
+            DisplacementDrift.channel(&[0.5, 0.0], Place::DisplacementChannel, &truth),
             [0.0, 0.5, 1.5]
         );
-        let settles = DisplacementDrift.channel(&[0.5, 2.0], &truth);
+        let settles = DisplacementDrift.channel(&[0.5, 2.0], Place::DisplacementChannel, &truth);
         assert!((settles[2] - 0.25 * (1.0 - (-6.0_f64).exp())).abs() < 1e-15);
-        let slowly = DisplacementDrift.channel(&[0.5, 1e-9], &truth);
+        let slowly = DisplacementDrift.channel(&[0.5, 1e-9], Place::DisplacementChannel, &truth);
         assert!((slowly[2] - 1.5).abs() < 1e-8);
     }
 }

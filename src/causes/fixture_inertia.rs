@@ -106,7 +106,7 @@ impl Effect for FixtureInertia {
     fn jumps_with(&self, _parameter: usize) -> bool {
         true
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         acceleration(truth).iter().map(|a| values[0] * a).collect()
     }
 }
@@ -153,7 +153,7 @@ mod tests {
         };
         // From nothing to a tenth of the force, where the reach is a radian.
         for mass in [1.0, 300.0, 6250.0] {
-            let added = FixtureInertia.channel(&[mass], &truth);
+            let added = FixtureInertia.channel(&[mass], Place::ForceChannel, &truth);
             // Near either end, within twice the reach, it is held constant.
             for (added, u) in added.iter().zip(&truth.displacement).skip(200).take(3600) {
                 // The record holds no whole number of cycles: its frequency is known to 0.1 %.
@@ -172,7 +172,7 @@ mod tests {
         };
         for count in [0, 1, 2, 3, 50] {
             assert_eq!(
-                FixtureInertia.channel(&[3.0], &still(count)),
+                FixtureInertia.channel(&[3.0], Place::ForceChannel, &still(count)),
                 vec![0.0; count]
             );
         }

@@ -81,8 +81,9 @@ impl Effect for JointOpening {
     fn keeps_side(&self, parameter: usize) -> bool {
         PARAMETERS[parameter].name == "opening_force"
     }
-    fn also_at(&self, values: &[f64]) -> Option<Place> {
-        (values[3] != 0.0).then_some(Place::BesideJoint)
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        let also = (values[3] != 0.0).then_some(Place::BesideJoint);
+        [Some(self.place()), also]
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
         let closed = match displacement * values[3] > 0.0 {

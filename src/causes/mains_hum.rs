@@ -1,15 +1,15 @@
-//! `mains_hum`: the displacement channel picks up the mains.
+//! `mains_hum`: a channel picks up the mains.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::sincos;
 use crate::joint::parameters::Parameter;
 
 /// A sine of the mains' frequency is added, `U_meas = U + a sin(2πf t) + b cos(2πf t)`, with some of its
-/// third harmonic; of several records the clocks are set so that one phase serves all.
+/// third harmonic; of several records the clocks are set so that one phase serves all. The load cell may have it instead, with `A` and `B`.
 pub struct MainsHum;
 
-static PARAMETERS: [Parameter; 5] = [
+static PARAMETERS: [Parameter; 7] = [
     Parameter {
         name: "sine",
         symbol: "a",
@@ -17,7 +17,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "amplitude of the part that is zero at time zero of the first record",
     },
     Parameter {
@@ -27,7 +27,7 @@ static PARAMETERS: [Parameter; 5] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "amplitude of the part that is largest at time zero of the first record",
     },
     Parameter {
@@ -60,6 +60,26 @@ static PARAMETERS: [Parameter; 5] = [
         neutral: Some(0.0),
         meaning: "third harmonic over the amplitude, the part that is largest at time zero of the first record",
     },
+    Parameter {
+        name: "cell_sine",
+        symbol: "A",
+        unit: "N",
+        lower: -1e9,
+        upper: 1e9,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "amplitude on the load cell of the part that is zero at time zero of the first record",
+    },
+    Parameter {
+        name: "cell_cosine",
+        symbol: "B",
+        unit: "N",
+        lower: -1e9,
+        upper: 1e9,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "amplitude on the load cell of the part that is largest at time zero of the first record",
+    },
 ];
 
 impl Effect for MainsHum {
@@ -72,13 +92,23 @@ impl Effect for MainsHum {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        chain::places(
+            values[0] != 0.0 || values[1] != 0.0,
+            values[5] != 0.0 || values[6] != 0.0,
+        )
+    }
+    fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
         let third = values[3] != 0.0 || values[4] != 0.0;
-        let amplitude = (values[0] * values[0] + values[1] * values[1]).sqrt();
+        let [a, b] = match place {
+            Place::ForceChannel => [values[5], values[6]],
+            _ => [values[0], values[1]],
+        };
+        let amplitude = (a * a + b * b).sqrt();
         let hum = |t: &f64| {
             let angle = std::f64::consts::TAU * values[2] * t;
             let (sine, cosine) = sincos(angle);
-            let first = values[0] * sine + values[1] * cosine;
+            let first = a * sine + b * cosine;
             if !third {
                 return first;
             }
@@ -92,11 +122,11 @@ impl Effect for MainsHum {
 impl Cause for MainsHum {
     fn page(&self) -> Page {
         Page {
-            happens: "A ground loop or an unshielded cable lets the mains into the displacement channel.",
+            happens: "A ground loop or an unshielded cable lets the mains into the displacement channel or the load cell.",
             sign: "A sine of 50 or 60 Hz, or of its alias, under everything: in holds too, whatever the load; loops ripple and their ripples do not repeat from cycle to cycle.",
             mistaken_for: &["displacement_drift", "offset_step"],
             separated_by: "Its spectrum is one line that stays where it is when the drive changes; an alias near the cycle's own rate looks like drift until the record is sampled faster.",
-            formula: "U_measured = U + a sin(w t) + b cos(w t) + sqrt(a^2 + b^2) (p sin(3 w t) + q cos(3 w t)), w = 2 pi f",
+            formula: "U_measured = U + a sin(w t) + b cos(w t) + sqrt(a^2 + b^2) (p sin(3 w t) + q cos(3 w t)), w = 2 pi f; or so of the load cell, with A and B",
             source: "Interference of the mains, nominally 50 or 60 Hz; transformers and rectifiers add odd harmonics, the third above all.",
         }
     }
@@ -108,19 +138,26 @@ impl Cause for MainsHum {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         // A phase between two of these is 30 degrees from the nearer: three quarters of its fall.
-        let amplitude = 0.002 * scale.displacement;
-        [50.0_f64, 60.0]
-            .iter()
-            .flat_map(|frequency| {
-                [15.0_f64, 75.0, 135.0].map(|degrees| {
-                    let (sine, cosine) = sincos(degrees.to_radians());
-                    vec![amplitude * sine, amplitude * cosine, *frequency, 0.0, 0.0]
-                })
-            })
-            .collect()
+        let small = 0.002;
+        let mut starts = Vec::new();
+        for frequency in [50.0_f64, 60.0] {
+            for degrees in [15.0_f64, 75.0, 135.0] {
+                let (sine, cosine) = sincos(degrees.to_radians());
+                let hum = |size: f64| [size * sine, size * cosine];
+                let [a, b] = hum(small * scale.displacement);
+                starts.push(vec![a, b, frequency, 0.0, 0.0, 0.0, 0.0]);
+                if scale.judges_force {
+                    let [a, b] = hum(small * scale.force);
+                    starts.push(vec![0.0, 0.0, frequency, 0.0, 0.0, a, b]);
+                }
+            }
+        }
+        starts
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], values[2], 0.05, 0.05]
+        let mut values = values.to_vec();
+        values[3..5].fill(0.05);
+        values
     }
 }
 
@@ -136,19 +173,31 @@ mod tests {
             force: vec![],
             displacement: vec![0.0; 41],
         };
-        let added = MainsHum.channel(&[2.0, 0.5, 50.0, 0.0, 0.0], &truth);
+        let added = MainsHum.channel(
+            &[2.0, 0.5, 50.0, 0.0, 0.0, 0.0, 0.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         // Time zero, a quarter and a half period of 20 ms later.
         for (sample, expected) in [(20, 0.5), (25, 2.0), (30, -0.5)] {
             assert!((added[sample] - expected).abs() < 1e-9);
         }
         // The third harmonic has gone three quarters of its own period where the first has one.
-        let both = MainsHum.channel(&[2.0, 0.0, 50.0, 0.1, 0.2], &truth);
+        let both = MainsHum.channel(
+            &[2.0, 0.0, 50.0, 0.1, 0.2, 0.0, 0.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         for (sample, expected) in [(20, 0.4), (25, 1.8), (30, -0.4)] {
             assert!((both[sample] - expected).abs() < 1e-9);
         }
         assert!(
             MainsHum
-                .channel(&[2.0, 0.5, 50.0, 0.0, 0.0], &Trajectory::default())
+                .channel(
+                    &[2.0, 0.5, 50.0, 0.0, 0.0, 0.0, 0.0],
+                    Place::DisplacementChannel,
+                    &Trajectory::default()
+                )
                 .is_empty()
         );
     }

@@ -2,6 +2,7 @@
 
 mod ac_coupling;
 mod asymmetric_friction;
+mod chain;
 mod clearance;
 mod creep;
 mod cubic_stiffness;
@@ -79,6 +80,8 @@ pub struct Scale {
     pub slowest: f64,
     /// Time between samples \[s\].
     pub step: f64,
+    /// True where the displacement drives, so that what a load cell adds shows as it is.
+    pub judges_force: bool,
     /// Frequencies faster than the load at which what the baseline leaves is loudest \[rad/s\].
     pub ringing: Vec<f64>,
 }

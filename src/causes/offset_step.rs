@@ -1,12 +1,13 @@
-//! `offset_step`: the displacement reading jumps once.
+//! `offset_step`: a reading jumps once.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{exp, hypot, log, tanh};
 use crate::joint::parameters::Parameter;
 
 /// The sensor's zero moves by a height at a time, `U_meas = U + (h/2)[1 + tanh(2 (t − t_0)/w)]`,
-/// over a length `w = T exp(−p)` of a record of length T, and no less than a sample.
+/// over a length `w = T exp(−p)` of a record of length T, and no less than a sample; or the load cell's,
+/// by a height `H`.
 ///
 /// A refit that begins with a slow jump finds its time from afar; the logarithm keeps it from
 /// sharpening faster than it comes near.
@@ -15,7 +16,7 @@ pub struct OffsetStep;
 /// A jump over a twelfth of the record; a longer one is a drift.
 const SLOWEST: f64 = 2.5;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "height",
         symbol: "h",
@@ -23,7 +24,7 @@ static PARAMETERS: [Parameter; 3] = [
         lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "displacement by which the reading jumps",
     },
     Parameter {
@@ -46,6 +47,16 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "natural logarithm of the record's length over that of the jump",
     },
+    Parameter {
+        name: "cell_height",
+        symbol: "H",
+        unit: "N",
+        lower: -1e9,
+        upper: 1e9,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "force by which the reading of the load cell jumps",
+    },
 ];
 
 impl Effect for OffsetStep {
@@ -58,15 +69,22 @@ impl Effect for OffsetStep {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        chain::places(values[0] != 0.0, values[3] != 0.0)
+    }
+    fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
         let Some((middle, width)) = jump(values, truth) else {
             return Vec::new();
         };
         let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - middle) / width);
         // A reading is set to zero before each record: it does not begin with the jump of one before it.
         let before = truth.time.first().map_or(0.0, share);
+        let height = match place {
+            Place::ForceChannel => values[3],
+            _ => values[0],
+        };
         let times = truth.time.iter();
-        times.map(|t| values[0] * (share(t) - before)).collect()
+        times.map(|t| height * (share(t) - before)).collect()
     }
 }
 
@@ -99,11 +117,11 @@ const HIGHER: f64 = 0.03;
 impl Cause for OffsetStep {
     fn page(&self) -> Page {
         Page {
-            happens: "A target, clip or cable is knocked, a counter misses pulses or a range is switched: the zero of the displacement moves at once and stays.",
+            happens: "A target, clip or cable is knocked, a counter misses pulses or a range is switched: the zero of the displacement, or of the load cell, moves at once and stays.",
             sign: "Loops before and after are the same in shape and apart by a constant; the jump takes no more than a moment and needs no force.",
             mistaken_for: &["displacement_drift", "running_in", "creep", "preload_loss"],
             separated_by: "Repeated equal blocks: a drift goes on at a steady rate, this is done at once; stiffness and area stay as they were. A specimen that settles at a force peak is told by its time at the peak.",
-            formula: "U_measured = U + (h/2) [1 + tanh(2 (t - t_0)/w)], w = T exp(-p)",
+            formula: "U_measured = U + (h/2) [1 + tanh(2 (t - t_0)/w)], w = T exp(-p); or so of the load cell, with H",
             source: "Step change of a sensor's zero.",
         }
     }
@@ -115,6 +133,9 @@ impl Cause for OffsetStep {
     }
     /// A specimen that settles does so while the force is higher than it ever was.
     fn double(&self, values: &[f64], truth: &Trajectory) -> Option<&'static str> {
+        if values[0] == 0.0 {
+            return None;
+        }
         let (middle, width) = jump(values, truth)?;
         let (start, end) = (truth.time.first()?, truth.time.last()?);
         if middle < *start || middle > *end {
@@ -131,27 +152,38 @@ impl Cause for OffsetStep {
         (after - before > HIGHER * peak_until(f64::INFINITY))
             .then_some("the force was higher than ever before when the reading jumped, so the specimen may have settled")
     }
+    /// What a record begins or ends with is no jump in it: a joint that was loaded before begins like that.
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        let mut begins = 0.0;
+        for length in &scale.lengths {
+            let within = values[1] - begins;
+            if within <= *length {
+                let away = (length * exp(-values[2])).max(BEGUN * scale.step);
+                return within > away && length - within > away;
+            }
+            begins += length;
+        }
+        false
+    }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
+        let [height, force] = [scale.displacement, scale.force].map(|size| 0.005 * size);
         let each = (MOST_STARTS / scale.lengths.len().max(1)).clamp(2, 8);
         let mut begins = 0.0;
         let mut starts = Vec::new();
         for length in &scale.lengths {
             for k in 0..each {
                 let time = begins + (k as f64 + 0.5) / each as f64 * length;
-                starts.push(vec![0.005 * scale.displacement, time, SLOWEST]);
+                starts.push([time, SLOWEST]);
             }
             begins += length;
         }
-        let height = 0.005 * scale.displacement;
         let samples = scale.duration() / scale.step;
         let sharpness = log(samples / BEGUN).clamp(SLOWEST, SHARPEST);
-        starts.extend(
-            scale
-                .jumps
-                .iter()
-                .map(|&time| vec![height, time, sharpness]),
-        );
-        starts
+        starts.extend(scale.jumps.iter().map(|&time| [time, sharpness]));
+        let of_sensor = starts.iter().map(|[time, p]| vec![height, *time, *p, 0.0]);
+        let of_cell = starts.iter().map(|[time, p]| vec![0.0, *time, *p, force]);
+        let of_cell = of_cell.filter(|_| scale.judges_force);
+        of_sensor.chain(of_cell).collect()
     }
 }
 
@@ -167,10 +199,14 @@ mod tests {
             force: vec![],
             displacement: vec![0.0; 101],
         };
-        let added = OffsetStep.channel(&[2.0, 4.0, 16.0], &truth);
+        let added = OffsetStep.channel(&[2.0, 4.0, 16.0, 0.0], Place::DisplacementChannel, &truth);
         assert!((added[40] - 1.0).abs() < 1e-12);
         assert!(added[35].abs() < 1e-6 && (added[45] - 2.0).abs() < 1e-6);
-        let slow = OffsetStep.channel(&[2.0, 4.0, SLOWEST], &truth);
+        let slow = OffsetStep.channel(
+            &[2.0, 4.0, SLOWEST, 0.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         let width = (10.0 * (-SLOWEST).exp()).hypot(10.0 / 101.0);
         let expected = (2.0_f64 * 0.5 / width).tanh() - (2.0_f64 * -4.0 / width).tanh();
         assert!((slow[45] - expected).abs() < 1e-12);
@@ -180,14 +216,43 @@ mod tests {
             ..truth
         };
         assert_eq!(
-            OffsetStep.channel(&[2.0, 4.0, 16.0], &later),
+            OffsetStep.channel(&[2.0, 4.0, 16.0, 0.0], Place::DisplacementChannel, &later),
             vec![0.0; 101]
         );
         assert!(
             OffsetStep
-                .channel(&[2.0, 4.0, 16.0], &Trajectory::default())
+                .channel(
+                    &[2.0, 4.0, 16.0, 0.0],
+                    Place::DisplacementChannel,
+                    &Trajectory::default()
+                )
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn a_jump_as_a_record_begins_or_ends_is_none() {
+        let scale = Scale {
+            lengths: vec![10.0, 20.0],
+            step: 0.01,
+            ..Scale::default()
+        };
+        let plausible =
+            |time: f64, sharpness: f64| OffsetStep.plausible(&[1e-6, time, sharpness, 0.0], &scale);
+        // A hundredth of the first record, a fifth of a second of the second.
+        let sharpness = 100.0_f64.ln();
+        for (time, is) in [
+            (0.05, false),
+            (0.2, true),
+            (9.95, false),
+            (10.15, false),
+            (10.25, true),
+            (29.9, false),
+            (31.0, false),
+        ] {
+            assert_eq!(plausible(time, sharpness), is, "{time}");
+        }
+        assert!(plausible(0.05, SHARPEST) && !plausible(0.03, SHARPEST));
     }
 
     /// A jump while the force passes its highest value yet has a double, one at a lower peak later has none.
@@ -201,7 +266,7 @@ mod tests {
             displacement: vec![0.0; 801],
             time,
         };
-        assert!(OffsetStep.double(&[1e-6, 0.2, 6.0], &truth).is_some());
-        assert_eq!(OffsetStep.double(&[1e-6, 5.2, 6.0], &truth), None);
+        assert!(OffsetStep.double(&[1e-6, 0.2, 6.0, 0.0], &truth).is_some());
+        assert_eq!(OffsetStep.double(&[1e-6, 5.2, 6.0, 0.0], &truth), None);
     }
 }

@@ -62,8 +62,9 @@ impl Effect for RunningIn {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn also_at(&self, values: &[f64]) -> Option<Place> {
-        (values[4] != 0.0).then_some(Place::InSeries)
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        let also = (values[4] != 0.0).then_some(Place::InSeries);
+        [Some(self.place()), also]
     }
     /// Energy and path before the last step that took time, which its compliance went by; both behind it; slip.
     fn memory(&self) -> usize {

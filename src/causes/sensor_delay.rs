@@ -32,7 +32,7 @@ impl Effect for SensorDelay {
     fn lateness(&self, values: &[f64]) -> Option<f64> {
         Some(values[0])
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         let course = truth.course();
         let mut passed = Passed::default();
         let samples = truth.time.iter().zip(&truth.displacement);
@@ -78,7 +78,7 @@ mod tests {
             time,
         };
         for delay in [0.004, 0.01, 0.037, -0.004, -0.02] {
-            let added = SensorDelay.channel(&[delay], &truth);
+            let added = SensorDelay.channel(&[delay], Place::DisplacementChannel, &truth);
             for (i, t) in truth.time.iter().enumerate().skip(5).take(990) {
                 let exact = (3.0 * (t - delay)).sin() - (3.0 * t).sin();
                 // Cubic pieces with slopes by differences err by (ω Δt)³/8 of the amplitude.
@@ -95,12 +95,21 @@ mod tests {
             force: vec![],
             displacement: vec![0.5, 1.5, 3.5],
         };
-        assert_eq!(SensorDelay.channel(&[5.0], &truth), [0.0, -1.0, -3.0]);
-        assert_eq!(SensorDelay.channel(&[-1.0], &truth)[2], 2.0);
-        assert_eq!(SensorDelay.channel(&[0.0], &truth), [0.0; 3]);
+        assert_eq!(
+            SensorDelay.channel(&[5.0], Place::DisplacementChannel, &truth),
+            [0.0, -1.0, -3.0]
+        );
+        assert_eq!(
+            SensorDelay.channel(&[-1.0], Place::DisplacementChannel, &truth)[2],
+            2.0
+        );
+        assert_eq!(
+            SensorDelay.channel(&[0.0], Place::DisplacementChannel, &truth),
+            [0.0; 3]
+        );
         assert!(
             SensorDelay
-                .channel(&[1.0], &Trajectory::default())
+                .channel(&[1.0], Place::DisplacementChannel, &Trajectory::default())
                 .is_empty()
         );
     }

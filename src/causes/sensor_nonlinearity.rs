@@ -1,14 +1,15 @@
-//! `sensor_nonlinearity`: the displacement sensor's curve is bent.
+//! `sensor_nonlinearity`: a sensor's curve is bent.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary;
 use crate::joint::parameters::Parameter;
 
-/// The sensor reads a bent curve, `U_meas = U + a U² + b U³`, or `U + a U² (1 + c U²) + b U³ (1 + d U²)`.
+/// The sensor reads a bent curve, `U_meas = U + a U² + b U³`, or `U + a U² (1 + c U²) + b U³ (1 + d U²)`; or
+/// the load cell does, with `A` to `D` and the force.
 pub struct SensorNonlinearity;
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter; 8] = [
     Parameter {
         name: "quadratic",
         symbol: "a",
@@ -16,7 +17,7 @@ static PARAMETERS: [Parameter; 4] = [
         lower: -1e12,
         upper: 1e12,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "error of the reading per square of the displacement",
     },
     Parameter {
@@ -26,7 +27,7 @@ static PARAMETERS: [Parameter; 4] = [
         lower: -1e24,
         upper: 1e24,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "error of the reading per cube of the displacement",
     },
     Parameter {
@@ -49,6 +50,46 @@ static PARAMETERS: [Parameter; 4] = [
         neutral: Some(0.0),
         meaning: "growth of the cubic error per square of the displacement",
     },
+    Parameter {
+        name: "cell_quadratic",
+        symbol: "A",
+        unit: "1/N",
+        lower: -1e12,
+        upper: 1e12,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "error of the load cell per square of the force",
+    },
+    Parameter {
+        name: "cell_cubic",
+        symbol: "B",
+        unit: "1/N2",
+        lower: -1e24,
+        upper: 1e24,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "error of the load cell per cube of the force",
+    },
+    Parameter {
+        name: "cell_even_bend",
+        symbol: "C",
+        unit: "1/N2",
+        lower: -1e24,
+        upper: 1e24,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "growth of its quadratic error per square of the force",
+    },
+    Parameter {
+        name: "cell_odd_bend",
+        symbol: "D",
+        unit: "1/N2",
+        lower: -1e24,
+        upper: 1e24,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "growth of its cubic error per square of the force",
+    },
 ];
 
 impl Effect for SensorNonlinearity {
@@ -61,22 +102,32 @@ impl Effect for SensorNonlinearity {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        let error = |u: &f64| {
-            let square = u * u;
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        chain::places(
+            values[0] != 0.0 || values[1] != 0.0,
+            values[4] != 0.0 || values[5] != 0.0,
+        )
+    }
+    fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
+        let values = match place {
+            Place::ForceChannel => &values[4..],
+            _ => values,
+        };
+        let error = |x: &f64| {
+            let square = x * x;
             let even = values[0] * (1.0 + values[2] * square);
             let odd = values[1] * (1.0 + values[3] * square);
-            square * (even + odd * u)
+            square * (even + odd * x)
         };
-        truth.displacement.iter().map(error).collect()
+        truth.channel(place).iter().map(error).collect()
     }
 }
 
 impl Cause for SensorNonlinearity {
     fn page(&self) -> Page {
         Page {
-            happens: "Gap sensors, strain-gauged beams and optical targets have a curve that is straight only near the middle of their range.",
-            sign: "Even and third harmonics that grow with the square and the cube of the displacement and follow it exactly; stiffness seems to depend on where in the range one measures; the same in every cycle and at every rate.",
+            happens: "Gap sensors, strain-gauged beams, load cells and optical targets have a curve that is straight only near the middle of their range.",
+            sign: "Even and third harmonics that grow with the square and the cube of the reading and follow it exactly; stiffness seems to depend on where in the range one measures; the same in every cycle and at every rate.",
             mistaken_for: &[
                 "joint_opening",
                 "cubic_stiffness",
@@ -85,7 +136,7 @@ impl Cause for SensorNonlinearity {
                 "sensor_saturation",
             ],
             separated_by: "A dummy specimen, or a second mounting position of the sensor: the bend moves with the sensor's range and not with the joint; contact sets in at a threshold, this from zero.",
-            formula: "U_measured = U + a U^2 (1 + c U^2) + b U^3 (1 + d U^2)",
+            formula: "U_measured = U + a U^2 (1 + c U^2) + b U^3 (1 + d U^2); or so of the load cell, with A to D and the force",
             source: "Polynomial calibration curve of a displacement transducer.",
         }
     }
@@ -94,21 +145,32 @@ impl Cause for SensorNonlinearity {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let error = 0.01;
-        [[1.0, 0.05], [0.05, 1.0], [1.0, 1.0], [1.0, -1.0]]
-            .iter()
-            .map(|[square, cube]| {
-                vec![
-                    error * square / scale.displacement,
-                    error * cube / elementary::square(scale.displacement),
-                    0.0,
-                    0.0,
+        let mut starts = Vec::new();
+        for [square, cube] in [[1.0, 0.05], [0.05, 1.0], [1.0, 1.0], [1.0, -1.0]] {
+            let bent = |size: f64| {
+                [
+                    error * square / size,
+                    error * cube / elementary::square(size),
                 ]
-            })
-            .collect()
+            };
+            let [a, b] = bent(scale.displacement);
+            starts.push(vec![a, b, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            if scale.judges_force {
+                let [a, b] = bent(scale.force);
+                starts.push(vec![0.0, 0.0, 0.0, 0.0, a, b, 0.0, 0.0]);
+            }
+        }
+        starts
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        let bend = -0.1 / elementary::square(scale.displacement);
-        vec![values[0], values[1], bend, bend]
+        let of_cell = values[4] != 0.0 || values[5] != 0.0;
+        let (size, bends) = match of_cell {
+            true => (scale.force, 6..8),
+            false => (scale.displacement, 2..4),
+        };
+        let mut values = values.to_vec();
+        values[bends].fill(-0.1 / elementary::square(size));
+        values
     }
 }
 
@@ -125,11 +187,19 @@ mod tests {
             displacement: vec![-2.0, 0.0, 3.0],
         };
         assert_eq!(
-            SensorNonlinearity.channel(&[0.5, 0.25, 0.0, 0.0], &truth),
+            SensorNonlinearity.channel(
+                &[0.5, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                Place::DisplacementChannel,
+                &truth
+            ),
             [0.0, 0.0, 11.25]
         );
         assert_eq!(
-            SensorNonlinearity.channel(&[0.5, 0.25, 0.125, 0.5], &truth),
+            SensorNonlinearity.channel(
+                &[0.5, 0.25, 0.125, 0.5, 0.0, 0.0, 0.0, 0.0],
+                Place::DisplacementChannel,
+                &truth
+            ),
             [3.0 - 6.0, 0.0, 4.5 * 2.125 + 6.75 * 5.5]
         );
     }

@@ -1,16 +1,16 @@
-//! `sensor_saturation`: the displacement channel runs out of range.
+//! `sensor_saturation`: a channel runs out of range.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 
 /// Beyond a level the reading falls behind, `U_meas = U − l(U − L₊) + l(−U − L₋)`, first by
 /// `l(d) = κ L (d/L)^(p−1) d/p` with L the mean of the levels, by `κ d²/2` where p = 2; from where `dl/dd = 1` on by
-/// all of the rest. κ → ∞ is a clip.
+/// all of the rest. κ → ∞ is a clip. The load cell may do so instead, at levels of the force.
 pub struct SensorSaturation;
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter; 8] = [
     Parameter {
         name: "sharpness",
         symbol: "kappa",
@@ -18,7 +18,7 @@ static PARAMETERS: [Parameter; 4] = [
         lower: 0.0,
         upper: 1e12,
         vanishes_at: Some(0.0),
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "one over the displacement from the level to where nothing more is read (onset 2); large for a clip",
     },
     Parameter {
@@ -28,7 +28,7 @@ static PARAMETERS: [Parameter; 4] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "displacement towards positive U from which the reading falls behind",
     },
     Parameter {
@@ -38,7 +38,7 @@ static PARAMETERS: [Parameter; 4] = [
         lower: 0.0,
         upper: 1.0,
         vanishes_at: None,
-        neutral: None,
+        neutral: Some(0.0),
         meaning: "displacement towards negative U from which the reading falls behind",
     },
     Parameter {
@@ -51,6 +51,46 @@ static PARAMETERS: [Parameter; 4] = [
         vanishes_at: None,
         neutral: Some(2.0),
         meaning: "power of the depth with which the reading falls behind; 2: the gain falls in proportion",
+    },
+    Parameter {
+        name: "cell_sharpness",
+        symbol: "kappa_F",
+        unit: "1/N",
+        lower: 0.0,
+        upper: 1e12,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "one over the force from the level to where the load cell reads nothing more (onset 2); large for a clip",
+    },
+    Parameter {
+        name: "cell_level_positive",
+        symbol: "F_+",
+        unit: "N",
+        lower: 0.0,
+        upper: 1e12,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "force towards positive F from which the reading falls behind",
+    },
+    Parameter {
+        name: "cell_level_negative",
+        symbol: "F_-",
+        unit: "N",
+        lower: 0.0,
+        upper: 1e12,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "force towards negative F from which the reading falls behind",
+    },
+    Parameter {
+        name: "cell_onset",
+        symbol: "p_F",
+        unit: "1",
+        lower: 2.0,
+        upper: 16.0,
+        vanishes_at: None,
+        neutral: Some(2.0),
+        meaning: "power of the depth with which the reading of the load cell falls behind",
     },
 ];
 
@@ -107,13 +147,19 @@ impl Effect for SensorSaturation {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+        chain::places(values[0] != 0.0, values[4] != 0.0)
+    }
+    fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
+        let values = match place {
+            Place::ForceChannel => &values[4..],
+            _ => values,
+        };
         let [positive, negative] = [values[1], values[2]];
         let knee = Knee::of(values);
-        truth
-            .displacement
-            .iter()
-            .map(|u| knee.lost(-u - negative) - knee.lost(u - positive))
+        let samples = truth.channel(place).iter();
+        samples
+            .map(|x| knee.lost(-x - negative) - knee.lost(x - positive))
             .collect()
     }
 }
@@ -121,7 +167,7 @@ impl Effect for SensorSaturation {
 impl Cause for SensorSaturation {
     fn page(&self) -> Page {
         Page {
-            happens: "The gap sensor, amplifier or converter reaches the end of its range: what lies beyond is read too small or not at all.",
+            happens: "The gap sensor, load cell, amplifier or converter reaches the end of its range: what lies beyond is read too small or not at all.",
             sign: "Tips of the loops are cut at a fixed reading, loading and unloading branches alike; below the level everything is right, at every rate and in every cycle.",
             mistaken_for: &[
                 "pinning",
@@ -130,7 +176,7 @@ impl Cause for SensorSaturation {
                 "clearance",
             ],
             separated_by: "The reading stands still while the force goes on, and leaves the level where it met it, without the hysteresis that a pinned joint keeps; the level belongs to the range of the instrument and shows on a dummy specimen.",
-            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = kappa d^2/2 up to d = 1/kappa, d - 1/(2 kappa) beyond; where the data ask for another onset kappa L (d/L)^(p - 1) d/p, L the mean of the levels, until dl/dd = 1",
+            formula: "U_measured = U - l(U - L_+) + l(-U - L_-), l(d) = kappa d^2/2 up to d = 1/kappa, d - 1/(2 kappa) beyond; where the data ask for another onset kappa L (d/L)^(p - 1) d/p, L the mean of the levels, until dl/dd = 1; or so of the load cell, at levels of F",
             source: "Compression and clipping of an amplifier: gain that falls linearly to nothing.",
         }
     }
@@ -138,17 +184,24 @@ impl Cause for SensorSaturation {
         &SensorSaturation
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let away = 1.5 * scale.displacement;
         let both = [0.5, 0.7, 0.85, 0.95].map(|share| [share, share]);
         let one = [[0.65, 1.5], [0.9, 1.5], [1.5, 0.65], [1.5, 0.9]];
-        both.iter()
-            .chain(&one)
-            .map(|level| level.map(|share| (share * scale.displacement).min(away)))
-            .map(|[positive, negative]| vec![0.2 / scale.displacement, positive, negative, 2.0])
-            .collect()
+        let mut starts = Vec::new();
+        for level in both.iter().chain(&one) {
+            let knee = |size: f64| [0.2 / size, level[0] * size, level[1] * size, 2.0];
+            let none = [0.0, 0.0, 0.0, 2.0];
+            starts.push([knee(scale.displacement), none].concat());
+            if scale.judges_force {
+                starts.push([none, knee(scale.force)].concat());
+            }
+        }
+        starts
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
-        vec![values[0], values[1], values[2], LATER]
+        let mut values = values.to_vec();
+        let onset = if values[4] != 0.0 { 7 } else { 3 };
+        values[onset] = LATER;
+        values
     }
 }
 
@@ -164,14 +217,26 @@ mod tests {
             force: vec![],
             displacement: vec![-3.0, -1.0, 0.5, 2.0, 4.0],
         };
-        let clip = SensorSaturation.channel(&[1e12, 2.0, 1.5, 2.0], &truth);
+        let clip = SensorSaturation.channel(
+            &[1e12, 2.0, 1.5, 2.0, 0.0, 0.0, 0.0, 2.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         let expected = [1.5, 0.0, 0.0, 0.0, -2.0];
         assert!(clip.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9));
         // l(1.5) and l(2) with 1/kappa = 4: the knee is not passed.
-        let soft = SensorSaturation.channel(&[0.25, 2.0, 1.5, 2.0], &truth);
+        let soft = SensorSaturation.channel(
+            &[0.25, 2.0, 1.5, 2.0, 0.0, 0.0, 0.0, 2.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         assert_eq!(soft, [0.125 * 2.25, 0.0, 0.0, 0.0, -0.5]);
         // A later onset loses less within the knee, and goes on straight behind it.
-        let later = SensorSaturation.channel(&[0.25, 2.0, 1.5, 4.0], &truth);
+        let later = SensorSaturation.channel(
+            &[0.25, 2.0, 1.5, 4.0, 0.0, 0.0, 0.0, 2.0],
+            Place::DisplacementChannel,
+            &truth,
+        );
         let expected = 0.25 * 1.75 * (2.0 / 1.75_f64).powi(3) * 2.0 / 4.0;
         assert!((later[4] + expected).abs() < 1e-15, "{later:?}");
         let knee = Knee::of(&[0.25, 2.0, 1.5, 4.0]);

@@ -85,7 +85,7 @@ mod tests {
         fn parameters(&self) -> &'static [Parameter] {
             &SIZE
         }
-        fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
             let added = (self.0)(&truth.displacement);
             added.iter().map(|x| values[0] * x).collect()
         }

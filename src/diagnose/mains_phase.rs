@@ -71,7 +71,15 @@ fn begun(
     let small = SMALL * super::prepare::rms(&record.displacement);
     let of = |size: f64, phase: f64| Acting {
         effect: hum.effect(),
-        values: vec![size * phase.cos(), size * phase.sin(), frequency, 0.0, 0.0],
+        values: vec![
+            size * phase.cos(),
+            size * phase.sin(),
+            frequency,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ],
     };
     let given = &judged_part(problem, first, &[of(small, seen.1)])[0];
     let given = line(&record.time, given, frequency);

@@ -54,6 +54,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         period,
         slowest,
         step,
+        judges_force: problem.operators.form == Form::Stop,
         ringing: tones,
     }
 }
@@ -61,7 +62,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
 /// Times the frequency of a load above which what rings is looked for.
 const FASTER: f64 = 2.0;
 
-/// Places of every record at which the displacement may have jumped.
+/// Places of every channel at which its reading may have jumped.
 const JUMPS: usize = 2;
 
 /// Times in the middle of the steps that stand out most.
@@ -70,7 +71,15 @@ fn possible_jumps(problem: &Problem) -> Vec<f64> {
     let mut times = Vec::new();
     for record in &problem.records {
         let first = record.time.first().copied().unwrap_or(0.0);
-        for i in jumps(&record.displacement, JUMPS) {
+        let (driven, judged) = record.channels(problem.operators.form);
+        let channels = match problem.operators.form {
+            Form::Play => vec![judged],
+            Form::Stop => vec![driven, judged],
+        };
+        for i in channels
+            .into_iter()
+            .flat_map(|channel| jumps(channel, JUMPS))
+        {
             times.push(begins + record.time[i] - 0.5 * record.steps[i] - first);
         }
         begins += record.length();

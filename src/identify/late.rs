@@ -10,7 +10,7 @@ use crate::record::peaks::{Between, Peak, is_between};
 pub(super) fn lateness(effects: &[Acting]) -> Option<f64> {
     let mut late = None;
     for acting in effects {
-        if acting.effect.place() == Place::DisplacementChannel {
+        if acting.acts_at(Place::DisplacementChannel) {
             *late.get_or_insert(0.0) += acting.effect.lateness(&acting.values)?;
         }
     }

@@ -201,7 +201,7 @@ impl Problem {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
         };
-        let corrects = |a: &&Acting| a.effect.place() == input_place && !self.is_marched(a);
+        let corrects = |a: &&Acting| a.acts_at(input_place) && !self.is_marched(a);
         let correcting: Vec<Acting> = effects.iter().filter(corrects).cloned().collect();
         let mut truth = Trajectory {
             time: record.time.clone(),
@@ -290,7 +290,7 @@ impl Problem {
             Form::Stop => truth.force.clone(),
         };
         let place = self.judged_place();
-        let adds = |a: &&Acting| a.effect.place() == place && !self.is_marched(a);
+        let adds = |a: &&Acting| a.acts_at(place) && !self.is_marched(a);
         let adding: Vec<Acting> = effects.iter().filter(adds).cloned().collect();
         if let Some(added) = added(&adding, place, truth) {
             judged.iter_mut().zip(&added).for_each(|(y, a)| *y += a);
@@ -306,7 +306,8 @@ impl Problem {
         effects: &[Acting],
         changed: &Acting,
     ) -> Vec<Vec<f64>> {
-        let same = changed.effect.place() == self.judged_place() && !self.is_marched(changed);
+        let judged = self.judged_place();
+        let same = changed.places().all(|own| own == judged) && !self.is_marched(changed);
         let judged = match same {
             true => at
                 .par_iter()
@@ -398,7 +399,7 @@ mod tests {
         fn parameters(&self) -> &'static [Parameter] {
             &[]
         }
-        fn channel(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
             truth.force.iter().map(|force| values[0] * force).collect()
         }
     }

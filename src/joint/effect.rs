@@ -101,6 +101,14 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
+    /// The channel that a place of the measuring chain adds to.
+    pub fn channel(&self, place: Place) -> &[f64] {
+        match place {
+            Place::ForceChannel => &self.force,
+            _ => &self.displacement,
+        }
+    }
+
     /// The displacement between the samples.
     pub fn course(&self) -> Course<'_> {
         Course {
@@ -133,9 +141,9 @@ pub trait Effect: Send + Sync {
     fn name(&self) -> &'static str;
     /// Where it acts.
     fn place(&self) -> Place;
-    /// A second place where it acts with these values, of a law that has another form there.
-    fn also_at(&self, _values: &[f64]) -> Option<Place> {
-        None
+    /// Where it acts with these values, of a law that has another form at a second place.
+    fn places(&self, _values: &[f64]) -> [Option<Place>; 2] {
+        [Some(self.place()), None]
     }
     /// Glossary of its parameters.
     fn parameters(&self) -> &'static [Parameter];
@@ -201,8 +209,8 @@ pub trait Effect: Send + Sync {
         None
     }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
-    /// channel it acts on, one number per sample (measured = true + added).
-    fn channel(&self, _values: &[f64], truth: &Trajectory) -> Vec<f64> {
+    /// channel at this place, one number per sample (measured = true + added).
+    fn channel(&self, _values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         vec![0.0; truth.time.len()]
     }
 }
@@ -217,10 +225,9 @@ pub struct Acting {
 }
 
 impl Acting {
-    /// Where it acts with its values: its place, and a second one if it has one.
+    /// Where it acts with its values.
     pub fn places(&self) -> impl Iterator<Item = Place> + use<> {
-        let also = self.effect.also_at(&self.values);
-        std::iter::once(self.effect.place()).chain(also)
+        self.effect.places(&self.values).into_iter().flatten()
     }
 
     /// Count of its values that are not neutral.

@@ -17,6 +17,7 @@ fn causes() -> Vec<(&'static str, String)> {
         period: 0.02,
         slowest: 0.02,
         step: 1e-3,
+        judges_force: true,
         ringing: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);

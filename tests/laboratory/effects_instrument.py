@@ -19,11 +19,41 @@ def _one_sample(fine):
     return ends / fine
 
 
+CELLS = 0.4  # share of the rigs driven in displacement whose load cell has the fault
+
+
 class Instrument(Scaled):
-    """An effect of the displacement channel alone."""
+    """An effect of one channel alone; of the load cell, too, where the force is what answers."""
 
     kind = "measurement"
-    acts = frozenset({"read_displacement"})
+
+    def draw(self, scene, rng):
+        of_cell = not scene.by_force and rng.random() < CELLS
+        self.channel = "force" if of_cell else "displacement"
+        self.unit = "N" if of_cell else "m"
+        self.acts = frozenset({f"read_{self.channel}"})
+        self.begin(scene, rng)
+
+    def begin(self, scene, rng):
+        """Draw what is the effect's own."""
+        raise NotImplementedError
+
+    def read(self, trace, values):
+        """The channel as it is read."""
+        raise NotImplementedError
+
+    def read_force(self, trace):
+        return self.read(trace, trace.force)
+
+    def read_displacement(self, trace):
+        return self.read(trace, trace.displacement)
+
+    def describe(self):
+        return {"channel": self.channel} | self.own()
+
+    def own(self):
+        """Its own parameters as plain values."""
+        raise NotImplementedError
 
 
 class FixtureInertia(Scaled):
@@ -58,18 +88,18 @@ class FixtureInertia(Scaled):
 
 
 class SensorDelay(Instrument):
-    """The displacement channel comes late."""
+    """One channel comes late."""
 
     name = "sensor_delay"
 
-    def draw(self, scene, rng):
+    def begin(self, scene, rng):
         self.most = 0.1 / scene.fastest
 
-    def read_displacement(self, trace):
+    def read(self, trace, values):
         late = trace.time - self.strength * self.most
-        return np.interp(late, trace.time, trace.displacement)
+        return np.interp(late, trace.time, values)
 
-    def describe(self):
+    def own(self):
         return {"delay_s": self.strength * self.most}
 
 
@@ -78,23 +108,23 @@ class OffsetStep(Instrument):
 
     name = "offset_step"
 
-    def draw(self, scene, rng):
+    def begin(self, scene, rng):
         self.file = int(rng.integers(len(scene.histories)))
         length = float(scene.histories[self.file].time[-1])
         self.duration = length
         self.when = length * rng.uniform(0.2, 0.8)
         self.rise = length * 10 ** rng.uniform(-5.0, -3.0)
-        self.most = 0.5 * scene.largest("displacement") * rng.choice([-1.0, 1.0])
+        self.most = 0.5 * scene.largest(self.channel) * rng.choice([-1.0, 1.0])
 
-    def read_displacement(self, trace):
+    def read(self, trace, values):
         if trace.time[-1] != self.duration:  # happens in one of the files only
-            return trace.displacement
+            return values
         x = np.clip((trace.time - self.when) / self.rise, -40.0, 40.0)
-        return trace.displacement + self.strength * self.most / (1.0 + np.exp(-x))
+        return values + self.strength * self.most / (1.0 + np.exp(-x))
 
-    def describe(self):
+    def own(self):
         return {
-            "step_m": self.strength * self.most,
+            f"step_{self.unit}": self.strength * self.most,
             "at_s": self.when,
             "file": self.file + 1,
         }
@@ -105,44 +135,44 @@ class MainsHum(Instrument):
 
     name = "mains_hum"
 
-    def draw(self, scene, rng):
+    def begin(self, scene, rng):
         self.frequency = float(rng.choice([50.0, 60.0])) * (1.0 + 1e-3 * rng.uniform(-1.0, 1.0))
         rates = [1.0 / (h.fine * (h.time[1] - h.time[0])) for h in scene.histories]
         if min(rates) < 2.5 * self.frequency:
             raise Infeasible("sampled too slowly for mains hum")
         self.phase = rng.uniform(0.0, 2 * np.pi, 2)
         self.third = rng.uniform(0.0, 0.3) if min(rates) > 8.0 * self.frequency else 0.0
-        self.most = 0.3 * scene.largest("displacement")
+        self.most = 0.3 * scene.largest(self.channel)
 
-    def read_displacement(self, trace):
+    def read(self, trace, values):
         angle = 2 * np.pi * self.frequency * trace.time
         hum = np.sin(angle + self.phase[0]) + self.third * np.sin(3 * angle + self.phase[1])
-        return trace.displacement + self.strength * self.most * hum
+        return values + self.strength * self.most * hum
 
-    def describe(self):
-        return {"amplitude_m": self.strength * self.most, "frequency_Hz": self.frequency}
+    def own(self):
+        return {f"amplitude_{self.unit}": self.strength * self.most, "frequency_Hz": self.frequency}
 
 
 class AcCoupling(Instrument):
-    """A high-pass in the displacement amplifier, of first or second order."""
+    """A high-pass in an amplifier, of first or second order."""
 
     name = "ac_coupling"
 
-    def draw(self, scene, rng):
+    def begin(self, scene, rng):
         self.order = int(rng.choice([1, 2], p=[0.7, 0.3]))
         self.most = 0.5 * scene.slowest
 
-    def read_displacement(self, trace):
+    def read(self, trace, values):
         dt = trace.time[1] - trace.time[0]
         half = np.pi * self.strength * self.most * dt  # bilinear transform
         b = np.array([1.0, -1.0]) / (1.0 + half)
         a = np.array([1.0, -(1.0 - half) / (1.0 + half)])
-        out = trace.displacement
+        out = values
         for _ in range(self.order):
             out = lfilter(b, a, out)
         return out
 
-    def describe(self):
+    def own(self):
         return {"corner_Hz": self.strength * self.most, "order": self.order}
 
 
@@ -151,17 +181,17 @@ class SensorSaturation(Instrument):
 
     name = "sensor_saturation"
 
-    def draw(self, scene, rng):
+    def begin(self, scene, rng):
         self.knee = float(rng.uniform(8.0, 30.0))
-        self.peak = scene.largest("displacement")
+        self.peak = scene.largest(self.channel)
 
-    def read_displacement(self, trace):
-        x = trace.displacement
+    def read(self, trace, values):
+        x = values
         relative = np.abs(x) * (2.0 * self.strength / self.peak)
         return x / (1.0 + relative**self.knee) ** (1.0 / self.knee)
 
-    def describe(self):
-        return {"range_m": 0.5 * self.peak / max(self.strength, 1e-9), "knee": self.knee}
+    def own(self):
+        return {f"range_{self.unit}": 0.5 * self.peak / max(self.strength, 1e-9), "knee": self.knee}
 
 
 class SensorNonlinearity(Instrument):
@@ -169,17 +199,17 @@ class SensorNonlinearity(Instrument):
 
     name = "sensor_nonlinearity"
 
-    def draw(self, scene, rng):
-        self.peak = scene.largest("displacement")
+    def begin(self, scene, rng):
+        self.peak = scene.largest(self.channel)
         self.even = float(rng.uniform(-1.0, 1.0))
         self.odd = float(rng.uniform(-1.0, 1.0))
 
-    def read_displacement(self, trace):
-        x = trace.displacement / self.peak
+    def read(self, trace, values):
+        x = values / self.peak
         bend = self.even * (1.0 - np.cos(1.5 * x)) + self.odd * (np.sin(1.5 * x) - 1.5 * x)
-        return trace.displacement + 0.4 * self.strength * self.peak * bend
+        return values + 0.4 * self.strength * self.peak * bend
 
-    def describe(self):
+    def own(self):
         return {
             "even_share": 0.4 * self.strength * self.even,
             "odd_share": 0.4 * self.strength * self.odd,

@@ -56,15 +56,23 @@ def _gap(side):
     return truth, found
 
 
-def _hum(p):
-    (sine, among), (cosine, around) = p["sine"], p["cosine"]
-    size = hypot(sine, cosine)
-    if not among or not around or size == 0.0:
-        return size, None
-    # The two parts are orthogonal over whole cycles of the mains: their errors are independent.
-    half = [0.5 * (high - low) for low, high in (among, around)]
-    spread = sqrt((sine * half[0]) ** 2 + (cosine * half[1]) ** 2) / size
-    return size, (size - spread, size + spread)
+def _hum(of):
+    def found(p):
+        (sine, among), (cosine, around) = p[of + "sine"], p[of + "cosine"]
+        size = hypot(sine, cosine)
+        if not among or not around or size == 0.0:
+            return size, None
+        # The two parts are orthogonal over whole cycles of the mains: their errors are independent.
+        half = [0.5 * (high - low) for low, high in (among, around)]
+        spread = sqrt((sine * half[0]) ** 2 + (cosine * half[1]) ** 2) / size
+        return size, (size - spread, size + spread)
+
+    return found
+
+
+def _corner(channel):
+    """Of a first-order high-pass in this channel."""
+    return _where("corner_Hz", order=(1,), channel=(channel,))
 
 
 QUANTITIES = [
@@ -89,15 +97,22 @@ QUANTITIES = [
         False,
     ),
     Quantity("fixture_inertia", "mass", _read("mass_kg")),
-    Quantity("sensor_delay", "delay", _read("delay_s")),
+    Quantity(
+        "sensor_delay",
+        "delay",
+        lambda t: -t["delay_s"] if t["channel"] == "force" else t["delay_s"],
+    ),
     Quantity(
         "displacement_drift",
         "rate",
         lambda t: t["total_m"] / t["over_s"] if t["law"] == "linear" else None,
     ),
-    Quantity("offset_step", "height", _read("step_m")),
-    Quantity("mains_hum", "amplitude", _read("amplitude_m"), True, _hum),
-    Quantity("ac_coupling", "corner_frequency", _where("corner_Hz", order=(1,))),
+    Quantity("offset_step", "height", lambda t: t.get("step_m")),
+    Quantity("offset_step", "cell_height", lambda t: t.get("step_N")),
+    Quantity("mains_hum", "amplitude", lambda t: t.get("amplitude_m"), True, _hum("")),
+    Quantity("mains_hum", "cell_amplitude", lambda t: t.get("amplitude_N"), True, _hum("cell_")),
+    Quantity("ac_coupling", "corner_frequency", _corner("displacement")),
+    Quantity("ac_coupling", "cell_corner", _corner("force")),
 ]
 
 NOT_COMPARABLE = {

@@ -165,6 +165,19 @@ class FollowUp(unittest.TestCase):
 
 
 class Effects(unittest.TestCase):
+    def test_a_load_cell_fails_where_the_force_answers_only(self):
+        for by_force in (True, False):
+            scene, rng = small_scene(1, by_force)
+            drawn = [CATALOGUE["mains_hum"](scene, rng) for _ in range(40)]
+            cells = [hum for hum in drawn if hum.acts == {"read_force"}]
+            self.assertEqual(bool(cells), not by_force)
+            self.assertLess(len(cells), 40)
+            for hum in cells:
+                hum.strength = 0.5
+                (force,) = Sampled(scene, scene.clean, hum).force
+                (true,) = Sampled(scene, scene.clean, rig.Effect()).force
+                self.assertAlmostEqual(np.max(np.abs(force - true)) / hum.most, 0.5, delta=0.2)
+
     def test_every_effect_vanishes_at_no_strength_and_shows_at_full(self):
         for name, make in {**CATALOGUE, **FOREIGN}.items():
             scene, rng = small_scene(1)

@@ -80,7 +80,7 @@ def truth(effect="sensor_delay", **more):
         "ratio_achieved": 1.0,
         "drive": "force",
         "noise": {"realised_rms": 1e-9},
-        "parameters": {"delay_s": 1e-3},
+        "parameters": {"delay_s": 1e-3, "channel": "displacement"},
         **more,
     }
 
@@ -115,11 +115,12 @@ def mark(effect, said, measurement="power", strength=1.0, **more):
     }
 
 
-def small_scene(seed):
+def small_scene(seed, by_force=True):
     rng = np.random.default_rng(seed)
     joint = draw_joint(rng)
     history = loads.stepped(rng, [3.0], 60.0, "sine", False, 0.0)
-    return Scene.stage(joint, [history], True, 0.7 * joint.full_slip), rng
+    peak = 0.7 * (joint.full_slip if by_force else joint.full_slip / joint.series)
+    return Scene.stage(joint, [history], by_force, peak), rng
 
 
 class Kinds(unittest.TestCase):
@@ -300,10 +301,10 @@ class Quality(unittest.TestCase):
         compared = {quantity.cause for quantity in parameters.QUANTITIES}
         self.assertEqual(compared | set(parameters.NOT_COMPARABLE), set(CATALOGUE))
         self.assertFalse(compared & set(parameters.NOT_COMPARABLE))
-        scene, rng = small_scene(6)
+        scenes = [small_scene(6, by_force) for by_force in (True, False)]
         for quantity in parameters.QUANTITIES:
             values = []
-            for _ in range(20):  # laws differ by the draw
+            for scene, rng in 20 * scenes:  # laws differ by the draw, channels by the drive
                 effect = CATALOGUE[quantity.cause](scene, rng)
                 effect.strength = 0.3
                 values.append(quantity.truth(effect.describe()))

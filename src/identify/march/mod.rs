@@ -285,8 +285,8 @@ impl<'a> March<'a> {
 /// What the effects at one channel add to the truth, summed.
 pub fn added(effects: &[Acting], place: Place, truth: &Trajectory) -> Option<Vec<f64>> {
     let mut sum: Option<Vec<f64>> = None;
-    for acting in effects.iter().filter(|a| a.effect.place() == place) {
-        let one = acting.effect.channel(&acting.values, truth);
+    for acting in effects.iter().filter(|a| a.acts_at(place)) {
+        let one = acting.effect.channel(&acting.values, place, truth);
         sum = Some(match sum {
             None => one,
             Some(mut all) => {

@@ -32,10 +32,7 @@ impl Laws {
             let end = length + acting.effect.memory();
             laws.push(Law {
                 acting: acting.clone(),
-                places: [
-                    Some(acting.effect.place()),
-                    acting.effect.also_at(&acting.values),
-                ],
+                places: acting.effect.places(&acting.values),
                 span: length..end,
             });
             length = end;
