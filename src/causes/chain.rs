@@ -9,3 +9,74 @@ pub(super) fn places(of_sensor: bool, of_cell: bool) -> [Option<Place>; 2] {
         of_cell.then_some(Place::ForceChannel),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Scale, find};
+    use crate::joint::effect::{Acting, Place, Trajectory};
+
+    /// Laws of both channels, and at which of their values those of the load cell begin.
+    const BOTH: [(&str, usize); 5] = [
+        ("ac_coupling", 2),
+        ("mains_hum", 5),
+        ("offset_step", 3),
+        ("sensor_nonlinearity", 4),
+        ("sensor_saturation", 4),
+    ];
+
+    /// A load cell errs as a sensor that reads as much does; each start acts on one channel, and on the load cell
+    /// only where its faults show.
+    #[test]
+    fn a_load_cell_errs_as_a_sensor_does() {
+        let time: Vec<f64> = (0..400).map(|i| 0.01 * f64::from(i)).collect();
+        let wave = time.iter().map(|t| 3.0 * (5.0 * t).sin() + t);
+        let moved = Trajectory {
+            displacement: wave.clone().collect(),
+            force: vec![0.0; 400],
+            time: time.clone(),
+            begins: 0.0,
+        };
+        let loaded = Trajectory {
+            displacement: vec![0.0; 400],
+            force: wave.collect(),
+            ..moved.clone()
+        };
+        let scale = |judges_force| Scale {
+            force: 6.0,
+            displacement: 6.0,
+            lengths: vec![4.0],
+            period: 1.25,
+            step: 0.01,
+            judges_force,
+            ..Scale::default()
+        };
+        for (name, of_cell) in BOTH {
+            let cause = find(name).unwrap();
+            let places = |values: Vec<f64>| -> Vec<Place> {
+                let effect = cause.effect();
+                Acting { effect, values }.places().collect()
+            };
+            let both = cause.starts(&scale(true));
+            let is_cell = |values: &&Vec<f64>| places(values.to_vec()) == [Place::ForceChannel];
+            let (cells, sensors): (Vec<_>, Vec<_>) = both.iter().partition(is_cell);
+            assert_eq!(cells.len(), sensors.len(), "{name}");
+            for sensor in &sensors {
+                assert_eq!(
+                    places(sensor.to_vec()),
+                    [Place::DisplacementChannel],
+                    "{name}"
+                );
+            }
+            let mut seen = 0.0_f64;
+            for (cell, sensor) in cells.iter().zip(&sensors) {
+                assert!(cell[of_cell..].iter().any(|value| *value != 0.0), "{name}");
+                let read = cause.channel(cell, Place::ForceChannel, &loaded);
+                let same = cause.channel(sensor, Place::DisplacementChannel, &moved);
+                assert_eq!(read, same, "{name}: {cell:?} and {sensor:?}");
+                seen = read.iter().fold(seen, |most, x| most.max(x.abs()));
+            }
+            assert!(seen > 0.0, "{name}");
+            assert_eq!(cause.starts(&scale(false)).len(), sensors.len(), "{name}");
+        }
+    }
+}

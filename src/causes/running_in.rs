@@ -1,6 +1,8 @@
 //! `running_in`: friction, or stiffness, settles to its lasting value within the first cycles.
 
-use super::wear::{ENERGY, PER_PATH, TAIL, follow_path, late, remaining, shapes, soon, worn};
+use super::wear::{
+    ENERGY, PER_PATH, TAIL, at_once, follow_path, late, remaining, shapes, soon, worn,
+};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
@@ -122,7 +124,8 @@ impl Cause for RunningIn {
         vec![values[0], values[1], 0.3, values[3], values[4]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[0] > 0.0 || values[4] > 0.0 || soon(values, scale)
+        let runs_in = values[0] > 0.0 || values[4] > 0.0 || soon(values, scale);
+        runs_in && !at_once(values, scale)
     }
     fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
         (values[0] < 0.0 && late(values, scale)).then_some("preload_loss")

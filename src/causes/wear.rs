@@ -78,6 +78,14 @@ const SOON: f64 = 0.2;
 /// Share below which a loss that is over is running in. Between the two either word fits.
 const LATE: f64 = 0.08;
 
+/// Share below which a change is over before the load has turned: what a joint does then that was loaded before.
+const AT_ONCE: f64 = 1e-5;
+
+/// True of a change that is over as the records begin.
+pub(super) fn at_once(values: &[f64], scale: &Scale) -> bool {
+    worn(AT_ONCE * scale.dissipation, AT_ONCE * scale.path, values) > 1.0
+}
+
 /// True of a change that is mostly over so soon that it may be running in.
 pub(super) fn soon(values: &[f64], scale: &Scale) -> bool {
     worn(SOON * scale.dissipation, SOON * scale.path, values) > 1.0
@@ -124,6 +132,10 @@ mod tests {
                 let other = either.then_some("preload_loss");
                 assert_eq!(run_in.also_called(&settles, &scale), other, "{energy} J");
             }
+        }
+        // What is over as the records begin is nobody's.
+        for settles in [[-0.3, 5e-5, 0.0, 0.0, 0.0], [0.3, 5e-5, 0.0, 0.0, 0.0]] {
+            assert!(!run_in.plausible(&settles, &scale));
         }
         // Friction that grows, and stiffness, have one name.
         for grows in [[0.3, 1.2, 0.0, 0.0, 0.0], [0.0, 1.2, 0.0, 0.0, -1e-9]] {
