@@ -8,8 +8,11 @@ use crate::joint::effect::{Effect, Place, Response, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`, or with the path of the
-/// slip, see [`worn`]; or a compliance in the load path does, `x = c exp(−E/E_0) F`, and for c < 0, of fresh
+/// slip, see [`worn`]; or a compliance in the load path does, `dx = c exp(−E/E_0) dF`, and for c < 0, of fresh
 /// surfaces that are stiffer, `x = −c [1 − exp(−E/E_0)] F`.
+///
+/// Contact that is gained meets the load that is there unstressed, contact that is lost lets go what it bore: a
+/// closed cycle of load returns no work either way, as it would if a joint that stiffens under load lifted it.
 pub struct RunningIn;
 
 static PARAMETERS: [Parameter; 5] = [
@@ -68,20 +71,23 @@ impl Effect for RunningIn {
         let also = (values[4] != 0.0).then_some(Place::InSeries);
         [Some(self.place()), also]
     }
-    /// Energy and path before the last step that took time, which its compliance went by; both behind it; slip.
+    /// Energy and path before the last step that took time, which its compliance went by; both behind it; slip; the
+    /// load, and what gave way to it.
     fn memory(&self) -> usize {
-        5
+        7
     }
     /// Energies and paths.
     fn lasting(&self) -> usize {
         4
     }
-    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+    fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
+        memory[6] = self.in_series(values, now.force, now.step, memory).value;
+        memory[5] = now.force;
         if now.step > 0.0 {
             memory.copy_within(2..4, 0);
         }
         memory[2] = now.dissipation;
-        follow_path(now, &mut memory[3..]);
+        follow_path(now, &mut memory[3..5]);
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 - values[0] * left((last.dissipation, memory[3]), values);
@@ -95,12 +101,15 @@ impl Effect for RunningIn {
         let work = if step > 0.0 { &memory[2..] } else { memory };
         let slope = RunningIn::compliance(values, work);
         Response {
-            value: slope * force,
+            value: match values[4] > 0.0 {
+                true => memory[6] + slope * (force - memory[5]),
+                false => slope * force,
+            },
             slope,
             damping: 0.0,
         }
     }
-    /// Of a spring of the present compliance; what it changes by under load is lost, or given.
+    /// Of a spring of the present compliance, which is what it gives back; what that changes by under load is lost.
     fn stored_energy(&self, values: &[f64], now: &Situation, memory: &[f64]) -> Option<f64> {
         Some(0.5 * RunningIn::compliance(values, memory) * now.force * now.force)
     }
@@ -113,7 +122,7 @@ impl Cause for RunningIn {
             sign: "The first loops are wider and softer than the later ones of the same load, or as wide and only softer; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
             separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
-            formula: "phi = phi_0 [1 - a r] or U = u + F/K_1 + c r F, r = (1 + q w)^(-1/q), exp(-w) for q = 0, w = E/E_0 or s/L",
+            formula: "phi = phi_0 [1 - a r] or dU = du + dF/K_1 + c r dF, r = (1 + q w)^(-1/q), exp(-w) for q = 0, w = E/E_0 or s/L",
             source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy (Fouvry; Schwingshackl et al. 2012) or the path of the slip as the measure of work.",
         }
     }
@@ -158,7 +167,7 @@ mod tests {
                 ..Situation::default()
             };
             RunningIn
-                .slip_limit(&[0.4, 2.0, 0.0, 0.0, 0.0], &last, &[0.0; 5])
+                .slip_limit(&[0.4, 2.0, 0.0, 0.0, 0.0], &last, &[0.0; 7])
                 .positive
         };
         assert_eq!(at(0.0), 0.6);
@@ -170,8 +179,12 @@ mod tests {
     fn a_compliance_settles_from_either_side_and_is_never_negative() {
         let at = |softness: f64, dissipation: f64| {
             let values = [0.0, 2.0, 0.0, 0.0, softness];
-            let response =
-                RunningIn.in_series(&values, 30.0, 0.1, &[7.0, 7.0, dissipation, 0.0, 0.0]);
+            let response = RunningIn.in_series(
+                &values,
+                30.0,
+                0.1,
+                &[7.0, 7.0, dissipation, 0.0, 0.0, 0.0, 0.0],
+            );
             assert_eq!(response.value, 30.0 * response.slope);
             response.slope
         };
@@ -183,8 +196,28 @@ mod tests {
     }
 
     #[test]
+    fn contact_that_is_gained_meets_its_load_unstressed_and_what_is_lost_lets_go() {
+        for (softness, gives_way) in [(1e-3, 0.02), (-1e-3, 0.02 * (1.0 - (-1.0_f64).exp()))] {
+            let values = [0.0, 2.0, 0.0, 0.0, softness];
+            let mut memory = [0.0; 7];
+            // Loaded while fresh, worn by the load, held.
+            for (force, dissipation) in [(20.0, 2.0), (20.0, 2.0)] {
+                let now = Situation {
+                    step: 0.1,
+                    force,
+                    dissipation,
+                    ..Situation::default()
+                };
+                RunningIn.remember(&values, &now, &mut memory);
+            }
+            assert!((memory[6] - gives_way).abs() < 1e-15, "{}", memory[6]);
+        }
+    }
+
+    #[test]
     fn work_is_remembered_with_its_path() {
-        let mut memory = [0.0; 5];
+        let mut memory = [0.0; 7];
+        let values = [0.0, 2.0, 0.0, 0.0, -1e-3];
         for (step, slip, dissipation) in [(0.1, 0.5, 1.0), (0.1, -0.25, 3.0), (0.0, -0.5, 4.0)] {
             let now = Situation {
                 step,
@@ -192,12 +225,14 @@ mod tests {
                 dissipation,
                 ..Situation::default()
             };
-            RunningIn.remember(&[], &now, &mut memory);
+            RunningIn.remember(&values, &now, &mut memory);
         }
         // What answers in no time goes by the work before the step that took some.
-        assert_eq!(memory, [1.0, 0.5, 4.0, 1.5, -0.5]);
-        let values = [0.0, 2.0, 0.0, 0.0, 1e-3];
+        assert_eq!(memory, [1.0, 0.5, 4.0, 1.5, -0.5, 0.0, 0.0]);
         let at = |step, memory: &[f64]| RunningIn.in_series(&values, 1.0, step, memory).value;
-        assert_eq!(at(0.0, &memory), at(0.1, &[0.0, 0.0, 1.0, 0.5, 0.0]));
+        assert_eq!(
+            at(0.0, &memory),
+            at(0.1, &[0.0, 0.0, 1.0, 0.5, 0.0, 0.0, 0.0])
+        );
     }
 }

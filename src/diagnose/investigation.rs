@@ -46,14 +46,28 @@ pub fn investigated(
             false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
         }
     };
-    let mut all = vec![searched(bench, first, timed, progress)];
     // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
-    let Found { best, .. } = &all[0].found;
-    let doubtful = !best.effects.is_empty() || leaves_structure(&all[0].bench.train, best);
-    let misled = against_rule(&all[0]) && doubtful;
+    let misled = |i: &Investigation| {
+        let Found { best, .. } = &i.found;
+        let doubtful = !best.effects.is_empty() || leaves_structure(&i.bench.train, best);
+        against_rule(i) && doubtful
+    };
+    let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
+    let leading = |all: &[Investigation]| {
+        let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
+        let unlikely = |i: &Investigation| {
+            let margin = if against_rule(i) { ALARM } else { 0.0 };
+            i.unlikeliness(scale) + margin
+        };
+        let order = all.iter().map(unlikely).enumerate();
+        let least = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        least.map_or(0, |(i, _)| i)
+    };
+    let mut all = vec![searched(bench, first, timed, progress)];
     for other in others {
         let bench = prepare(records, &other);
-        if misled || all[0].may_be_beaten_by(&bench) {
+        let so_far = &all[leading(&all)];
+        if misled(so_far) || so_far.may_be_beaten_by(&bench) {
             progress(
                 "once more: a record may begin in the middle of a test, or its zero may be off",
             );
@@ -61,15 +75,7 @@ pub fn investigated(
             all.push(searched(bench, first, timed, progress).sharpened());
         }
     }
-    let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
-    let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
-    let unlikely = |i: &Investigation| {
-        let margin = if against_rule(i) { ALARM } else { 0.0 };
-        i.unlikeliness(scale) + margin
-    };
-    let order = all.iter().map(unlikely).enumerate();
-    let likeliest = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
-    let likeliest = likeliest.map_or(0, |(i, _)| i);
+    let likeliest = leading(&all);
     let anew = all.swap_remove(likeliest);
     if !anew.may_wear_on() {
         return anew;

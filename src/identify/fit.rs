@@ -209,9 +209,13 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
     let columns = problem.operators.columns();
     let mut now = Reached::at(problem, coefficients, effects).begun(problem, steps.before);
     let mut damping = 0.0;
-    // A limit that follows what the joint does makes the answer less than linear in the dictionary.
-    let limits = |a: &Acting| a.acts_at(Place::SlipLimit);
-    let implicit = now.effects.iter().any(limits);
+    // Limits that follow what the joint does, and what shares the force with it, make the answer less than linear in
+    // the dictionary.
+    let drives = problem.operators.form == Form::Play;
+    let shares =
+        |a: &Acting| a.acts_at(Place::BesideJoint) || a.effect.inertia(&a.values).is_some();
+    let follows = |a: &Acting| a.acts_at(Place::SlipLimit) || (drives && shares(a));
+    let implicit = now.effects.iter().any(follows);
     for round in 0..steps.longest {
         let slopes = slopes(problem, &now.coefficients, &now.effects, &now.predictions);
         let normal = normal(

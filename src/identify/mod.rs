@@ -20,6 +20,7 @@ pub mod nonnegative;
 pub mod operators;
 pub mod problem;
 mod reached;
+mod remembered;
 pub mod rows;
 pub mod scatter;
 pub mod score;

@@ -383,7 +383,7 @@ const ROUNDS: usize = 3;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::joint::effect::{Effect, Situation, SlipLimit};
+    use crate::joint::effect::{Effect, Response, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
 
     /// A load cell that reads too much.
@@ -470,6 +470,58 @@ mod tests {
             let passed = problem.pass(k, &coefficients, &from(0.0), |_, _, _| {});
             assert!(differ(&passed.judged, expected) < 1e-12, "{k}");
         }
+    }
+
+    /// A spring across the joint that pushes on.
+    struct Softening;
+
+    impl Effect for Softening {
+        fn name(&self) -> &'static str {
+            "softening"
+        }
+        fn place(&self) -> Place {
+            Place::BesideJoint
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
+            Response {
+                value: -values[0] * displacement,
+                slope: -values[0],
+                damping: 0.0,
+            }
+        }
+    }
+
+    #[test]
+    fn beside_a_spring_that_softens_the_network_carries_more_than_the_force() {
+        let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            name: "softening".to_string(),
+            displacement: vec![0.0; force.len()],
+            force,
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Play, &[record]);
+        let cells = problem.operators.edges.len();
+        let largest = |softer: f64, beyond: f64| {
+            let mut coefficients = vec![0.0; problem.operators.columns()];
+            (coefficients[0], coefficients[1 + cells]) = (1.0, beyond);
+            let softening = Acting {
+                effect: &Softening,
+                values: vec![softer],
+            };
+            let predicted = &problem.predict(&coefficients, &[softening])[0];
+            let judged = predicted.judged.iter();
+            judged.fold(0.0_f64, |most, u| most.max(u.abs()))
+        };
+        // The first cell beyond the range of the force has its thresholds from 1.015 to 1.105 of it.
+        assert_eq!(largest(0.0, 1.0), largest(0.0, 0.0));
+        let (held, slipped) = (largest(0.1, 0.0), largest(0.1, 1.0));
+        assert!((held - 1.0 / 0.9).abs() < 1e-3, "{held}");
+        // Of the four the mean plays: 1.11 less 1.06 where all of them slip, and what that softens.
+        assert!(slipped - held > 0.05, "{held}, {slipped}");
     }
 
     /// No cause of the catalogue needs the repeated pass; an effect at that place may.

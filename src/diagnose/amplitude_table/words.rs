@@ -6,6 +6,7 @@ use super::levels::{Levels, Over};
 use super::model::Model;
 use super::scatter::{LEAST_LOSS, Scatter};
 use crate::diagnose::findings::{NamedCause, Verdict};
+use crate::record::written::quantity;
 
 /// The verdict in a sentence or two.
 pub fn summary(verdict: Verdict, causes: &[NamedCause], ratio: f64, levels: &Levels) -> String {
@@ -147,9 +148,9 @@ pub fn places(levels: &Levels, unseen: &[Unseen]) -> Vec<String> {
                 format!(", stiffness by {:+.3} %", 100.0 * error)
             });
             format!(
-                "level {} ({:.4e} {unit}), left out: loss missed by {:+.1} %{stiffness}",
+                "level {} ({}), left out: loss missed by {:+.1} %{stiffness}",
                 level.row + 1,
-                levels.rows[level.row].amplitude,
+                quantity(levels.rows[level.row].amplitude, unit),
                 100.0 * level.loss
             )
         })

@@ -1,12 +1,11 @@
 //! A step of a joint that displacement drives: its slip is the unknown.
 
-use super::{MOST_TRIALS, March, PRECISE, Step, index};
+use super::{MOST_TRIALS, March, PRECISE, Step};
 use crate::identify::bracket::Bracket;
-use crate::joint::effect::Place;
 
 impl March<'_> {
     pub(super) fn step_displacement(&mut self, time: f64, step: f64, displacement: f64) -> Step {
-        let path_acts = self.has[index(Place::Spring)] || self.has[index(Place::InSeries)];
+        let path_acts = self.in_path_acts();
         let mut trial = if path_acts {
             self.slip_ahead(step, displacement)
         } else {
@@ -25,13 +24,18 @@ impl March<'_> {
             let slope = 1.0 + path_slope * joint_slope;
             let next = bracket.next(trial, error, slope, error);
             if !path_acts || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
-                let (across, _, velocity) = self.beside_joint(displacement, step);
+                let across = self.beside_joint(displacement, step);
                 self.tangent = tangent;
-                self.accept(time, step, (trial, joint_force, displacement, velocity));
+                self.accept(
+                    time,
+                    step,
+                    (trial, joint_force, displacement, across.velocity),
+                );
                 return Step {
-                    force: joint_force + across,
+                    force: joint_force + across.force,
                     displacement,
                     share: (1.0 / slope).clamp(0.0, 1.0),
+                    input: [-path_slope, 0.0],
                     ..Step::default()
                 };
             }

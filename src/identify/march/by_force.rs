@@ -1,16 +1,19 @@
 //! A step of a joint that force drives: the network's force is the unknown.
 
-use super::{MOST_TRIALS, March, PRECISE, Step, index};
+use super::{MOST_TRIALS, March, PRECISE, Step};
 use crate::identify::bracket::Bracket;
 use crate::identify::inertia::Carried;
-use crate::joint::effect::Place;
+
+/// Slope of a step's equation, of a unit of the network's force, below which the joint snaps through and no
+/// derivative says where to.
+const SOFTEST: f64 = 0.05;
 
 /// Rounding of a difference of displacements, as a share of one.
 const ROUNDED: f64 = 1e-15;
 
 impl March<'_> {
     pub(super) fn step_force(&mut self, time: f64, step: f64, force: f64) -> Step {
-        let parallel = self.has[index(Place::BesideSlip)] || self.carries();
+        let parallel = self.feeds_back();
         let mut trial = if parallel {
             self.force_ahead(step, force)
         } else {
@@ -28,13 +31,12 @@ impl March<'_> {
             let (path, path_slope) = self.in_path(joint_force, step);
             let displacement = slip + path;
             let displacement_slope = tangent + path_slope * joint_slope;
-            let (across, across_slope, velocity) = self.beside_joint(displacement, step);
+            let across = self.beside_joint(displacement, step);
             let hauled = self.inertia.at(step, displacement);
-            let error = joint_force + across + hauled.force - force;
-            let slope = joint_slope + (across_slope + hauled.slope) * displacement_slope;
-            answer = (slip, joint_force, displacement, velocity);
-            let share = (1.0 / slope).clamp(0.0, 1.0);
-            let carried = self.carried(displacement, step, across_slope);
+            let error = joint_force + across.force + hauled.force - force;
+            let slope = joint_slope + (across.slope + hauled.slope) * displacement_slope;
+            answer = (slip, joint_force, displacement, across.velocity);
+            let share = if slope > SOFTEST { 1.0 / slope } else { 0.0 };
             let next = bracket.next(trial, error, slope, 2.0 * error);
             let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
@@ -45,7 +47,13 @@ impl March<'_> {
                     force: force - hauled.force,
                     displacement,
                     share,
-                    carried: carried.map(|c| c * displacement_slope * share),
+                    input: match displacement_slope > 0.0 {
+                        true => [1.0, -1.0 - path_slope * beside_slope]
+                            .map(|by| by / displacement_slope),
+                        // A joint that no force moves.
+                        false => [0.0; 2],
+                    },
+                    carried: across.earlier.map(|c| -c * displacement_slope * share),
                     hauled: Carried {
                         by_motion: taken.by_motion.map(|c| -c * displacement_slope * share),
                         ..taken
@@ -65,9 +73,9 @@ impl March<'_> {
         let (path, path_slope) = self.in_path(network + beside, step);
         let displacement = self.last.slip + path;
         let displacement_slope = self.tangent + path_slope * joint_slope;
-        let (across, across_slope, _) = self.beside_joint(displacement, step);
+        let across = self.beside_joint(displacement, step);
         let hauled = self.inertia.at(step, displacement);
-        let error = self.last.force + across + hauled.force - force;
-        network - error / (joint_slope + (across_slope + hauled.slope) * displacement_slope)
+        let error = self.last.force + across.force + hauled.force - force;
+        network - error / (joint_slope + (across.slope + hauled.slope) * displacement_slope)
     }
 }

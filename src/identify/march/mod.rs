@@ -16,6 +16,7 @@ pub struct March<'a> {
     operators: &'a Operators,
     elastic: f64,
     bank: Bank,
+    cells: &'a [f64],
     effects: &'a [Acting],
     memories: Vec<Vec<f64>>,
     last: Situation,
@@ -38,6 +39,8 @@ pub struct Step {
     pub displacement: f64,
     /// d judged / d network output: what a column of the dictionary is worth at this sample.
     pub share: f64,
+    /// d network input / d judged, and by the network's output.
+    pub(super) input: [f64; 2],
     /// d displacement / d its two earlier values, latest first: a force that follows the rate of the
     /// displacement carries a change of the model on to later samples.
     pub carried: [f64; 2],
@@ -95,7 +98,9 @@ impl<'a> March<'a> {
             Form::Play => Place::ForceChannel,
             Form::Stop => Place::DisplacementChannel,
         };
-        let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)];
+        // A spring across the joint that softens leaves the network more than the whole force.
+        let across = operators.form == Form::Play && has[index(Place::BesideJoint)];
+        let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)] || across;
         let reached = match beyond {
             true => &coefficients[1..],
             false => &coefficients[1..=operators.edges.len()],
@@ -107,6 +112,7 @@ impl<'a> March<'a> {
             operators,
             elastic,
             bank,
+            cells: reached,
             effects,
             memories: effects
                 .iter()
@@ -136,20 +142,43 @@ impl<'a> March<'a> {
         self.has[index(Place::BesideJoint)]
     }
 
-    /// What the judged channel gains at once per unit of each coefficient, the elastic one first; of a
-    /// march with all cells.
-    pub(super) fn row(&self, step: Step, row: &mut [f64]) {
-        row[0] = step.share
-            * match self.operators.form {
-                Form::Play => self.network_force(),
-                Form::Stop => self.last.slip,
-            };
-        let share = step.share / SHARED as f64;
-        for (value, cell) in row[1..]
-            .iter_mut()
-            .zip(self.bank.positions().chunks_exact(SHARED))
-        {
-            *value = cell.iter().sum::<f64>() * share;
+    /// Output of the network per unit of each coefficient, the elastic one first; of a march with all cells.
+    pub(super) fn outputs(&self, outputs: &mut [f64]) {
+        outputs[0] = match self.operators.form {
+            Form::Play => self.network_force(),
+            Form::Stop => self.last.slip,
+        };
+        let cells = self.bank.positions().chunks_exact(SHARED);
+        for (output, cell) in outputs[1..].iter_mut().zip(cells) {
+            *output = cell.iter().sum::<f64>() / SHARED as f64;
+        }
+    }
+
+    /// Positions of the operators at the end of the last step, in the order of the thresholds.
+    pub(super) fn positions(&self) -> &[f64] {
+        self.bank.positions()
+    }
+
+    /// Coefficients of the cells.
+    pub(super) fn cells(&self) -> &[f64] {
+        self.cells
+    }
+
+    /// Which operators they are.
+    pub(super) fn form(&self) -> Form {
+        self.operators.form
+    }
+
+    /// Slip at the end of the last step \[m\].
+    pub(super) fn slip(&self) -> f64 {
+        self.last.slip
+    }
+
+    /// True where what the network gives moves its own input.
+    pub(super) fn feeds_back(&self) -> bool {
+        match self.operators.form {
+            Form::Play => self.has[index(Place::BesideSlip)] || self.carries(),
+            Form::Stop => self.in_path_acts(),
         }
     }
 

@@ -3,6 +3,19 @@
 use super::{March, index};
 use crate::joint::effect::Place;
 
+/// Force beside the joint, with its derivatives.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Beside {
+    /// \[N\].
+    pub force: f64,
+    /// d/dU \[N/m\], by way of the rate included.
+    pub slope: f64,
+    /// The same by the two displacements before, latest first.
+    pub earlier: [f64; 2],
+    /// Rate of the displacement \[m/s\].
+    pub velocity: f64,
+}
+
 impl March<'_> {
     pub(super) fn beside_slip(&self, slip: f64) -> (f64, f64) {
         if !self.has[index(Place::BesideSlip)] {
@@ -18,8 +31,13 @@ impl March<'_> {
         sum
     }
 
+    /// True where effects act in the load path.
+    pub(super) fn in_path_acts(&self) -> bool {
+        self.has[index(Place::Spring)] || self.has[index(Place::InSeries)]
+    }
+
     pub(super) fn in_path(&self, force: f64, step: f64) -> (f64, f64) {
-        if !self.has[index(Place::Spring)] && !self.has[index(Place::InSeries)] {
+        if !self.in_path_acts() {
             return (0.0, 0.0);
         }
         let mut sum = (0.0, 0.0);
@@ -36,25 +54,28 @@ impl March<'_> {
         sum
     }
 
-    /// Force beside the joint and its slope d/dU at the end of a step.
-    pub(super) fn beside_joint(&self, displacement: f64, step: f64) -> (f64, f64, f64) {
+    /// What acts beside the joint at the end of a step.
+    pub(super) fn beside_joint(&self, displacement: f64, step: f64) -> Beside {
         if !self.has[index(Place::BesideJoint)] {
-            return (0.0, 0.0, 0.0);
+            return Beside::default();
         }
-        let (velocity, [per_displacement, ..]) = self.velocity(displacement, step);
-        let mut sum = (0.0, 0.0);
+        let (velocity, per_displacement) = self.velocity(displacement, step);
+        let mut sum = Beside {
+            velocity,
+            ..Beside::default()
+        };
         for acting in self.effects {
             if acting.acts_at(Place::BesideJoint) {
                 let response = acting
                     .effect
                     .beside_joint(&acting.values, displacement, velocity);
-                sum = (
-                    sum.0 + response.value,
-                    sum.1 + response.slope + response.damping * per_displacement,
-                );
+                sum.force += response.value;
+                sum.slope += response.slope + response.damping * per_displacement[0];
+                let earlier = sum.earlier.iter_mut().zip(&per_displacement[1..]);
+                earlier.for_each(|(sum, per)| *sum += response.damping * per);
             }
         }
-        (sum.0, sum.1, velocity)
+        sum
     }
 
     /// Backward difference of second order where two earlier samples are known; also d rate / dU,
@@ -73,18 +94,6 @@ impl March<'_> {
                 (rate, [own, -own - oldest, oldest])
             }
             _ => (first, [1.0 / step, -1.0 / step, 0.0]),
-        }
-    }
-
-    /// −d force beside the joint / d earlier displacements, from its slope at this sample.
-    pub(super) fn carried(&self, displacement: f64, step: f64, across_slope: f64) -> [f64; 2] {
-        if across_slope == 0.0 {
-            return [0.0; 2];
-        }
-        let (_, [own, before, oldest]) = self.velocity(displacement, step);
-        match own > 0.0 {
-            true => [-across_slope * before / own, -across_slope * oldest / own],
-            false => [0.0; 2],
         }
     }
 }
