@@ -8,6 +8,7 @@ mod creep;
 mod cubic_stiffness;
 mod displacement_drift;
 mod fixture_inertia;
+mod free_play;
 mod joint_opening;
 mod mains_hum;
 mod normal_load_variation;

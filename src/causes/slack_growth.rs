@@ -1,16 +1,17 @@
 //! `slack_growth`: free play that grows with the largest force so far.
 
+use super::free_play::{DRAG, crossed, drag, on_seat, stored};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
-use crate::joint::elementary::{exp, log1p, tanh};
+use crate::joint::elementary::tanh;
 use crate::joint::parameters::Parameter;
 
 /// Free play in the load path that past peaks have opened,
-/// `s = (g/2) tanh(F/F_s)` with `g = γ max(F_peak − F_0, 0)`, `F_peak` the largest |F| so far, the
-/// present one included.
+/// `s = (g/2) tanh(y/F_s)` with `g = γ max(F_peak − F_0, 0)`, `F_peak` the largest |F| so far, the
+/// present one included; y is the force, or what is left of it when parts that cross the play drag, see [`on_seat`].
 pub struct SlackGrowth;
 
-static PARAMETERS: [Parameter; 3] = [
+static PARAMETERS: [Parameter; 4] = [
     Parameter {
         name: "growth",
         symbol: "gamma",
@@ -41,6 +42,7 @@ static PARAMETERS: [Parameter; 3] = [
         neutral: None,
         meaning: "force over which the surfaces come to full contact",
     },
+    DRAG,
 ];
 
 /// Free play \[m\] after a peak \[N\], and its growth with a further peak \[m/N\].
@@ -62,38 +64,34 @@ impl Effect for SlackGrowth {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    /// The largest |F| so far.
+    /// The largest |F| so far, the force on the seat.
     fn memory(&self) -> usize {
-        1
+        2
     }
-    /// All of it.
+    /// The peaks.
     fn lasting(&self) -> usize {
         1
     }
-    fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+    fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
         memory[0] = now.force.abs().max(memory[0]);
+        memory[1] = on_seat(now.force, memory[1], values[3]);
     }
     fn in_series(&self, values: &[f64], force: f64, _step: f64, memory: &[f64]) -> Response {
         let (gap, growth) = gap(values, force.abs().max(memory[0]));
-        let shape = tanh(force / values[2]);
+        let response = crossed(gap, values[2], force, (memory[1], values[3]));
         let opening = if force.abs() > memory[0] {
-            0.5 * growth * shape.abs()
+            0.5 * growth * tanh(on_seat(force, memory[1], values[3]) / values[2]).abs()
         } else {
             0.0
         };
         Response {
-            value: 0.5 * gap * shape,
-            slope: 0.5 * gap / values[2] * (1.0 - shape * shape) + opening,
-            damping: 0.0,
+            slope: response.slope + opening,
+            ..response
         }
     }
-    /// The seating springs back, `∫ F ds` at the present gap; opening the gap is lost.
-    fn stored_energy(&self, values: &[f64], now: &Situation, memory: &[f64]) -> Option<f64> {
-        let (gap, _) = gap(values, memory[0]);
-        let load = (now.force / values[2]).abs();
-        // ln cosh x = x + ln(1 + exp(−2x)) − ln 2, without overflow.
-        let ln_cosh = load + log1p(exp(-2.0 * load)) - std::f64::consts::LN_2;
-        Some(0.5 * gap * values[2] * (load * tanh(load) - ln_cosh))
+    /// The seating springs back, `∫ y ds` at the present gap; opening the gap is lost, and drag.
+    fn stored_energy(&self, values: &[f64], _now: &Situation, memory: &[f64]) -> Option<f64> {
+        Some(stored(gap(values, memory[0]).0, values[2], memory[1]))
     }
 }
 
@@ -104,7 +102,7 @@ impl Cause for SlackGrowth {
             sign: "Pinched loops: a flat stretch around zero force that is wider after each higher peak and never narrows; loops of the same amplitude differ before and after the peak, and agree otherwise.",
             mistaken_for: &["clearance", "preload_loss", "static_friction_drop"],
             separated_by: "The same small loop before and after a large one: play of fixed size and friction show no difference; repeated equal cycles: lost preload goes on, this stays.",
-            formula: "U = u + F/K_1 + (g/2) tanh(F/F_s), g = gamma max(F_peak - F_0, 0)",
+            formula: "U = u + F/K_1 + (g/2) tanh(y/F_s), y = F or within F_d of it, g = gamma max(F_peak - F_0, 0)",
             source: "Pinching with damage by peak load, as in the slip and degradation parts of hysteresis models for nailed and bolted joints (Baber and Noori 1985; Foliente 1995).",
         }
     }
@@ -116,10 +114,18 @@ impl Cause for SlackGrowth {
         let mut starts = Vec::new();
         for threshold in [0.0, 0.4] {
             for seating in [0.005, 0.02, 0.08, 0.3] {
-                starts.push(vec![growth, threshold * scale.force, seating * scale.force]);
+                starts.push(vec![
+                    growth,
+                    threshold * scale.force,
+                    seating * scale.force,
+                    0.0,
+                ]);
             }
         }
         starts
+    }
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        vec![values[0], values[1], values[2], drag(values[2])]
     }
 }
 
@@ -129,8 +135,8 @@ mod tests {
 
     #[test]
     fn play_opens_with_a_new_peak_and_stays() {
-        let values = [2e-3, 10.0, 1e-3];
-        let mut memory = [0.0];
+        let values = [2e-3, 10.0, 1e-3, 0.0];
+        let mut memory = [0.0; 2];
         let at = |force, memory: &[f64]| SlackGrowth.in_series(&values, force, 0.1, memory).value;
         assert_eq!(at(9.0, &memory), 0.0);
         assert!((at(30.0, &memory) - 0.02).abs() < 1e-15);
@@ -146,7 +152,7 @@ mod tests {
 
     #[test]
     fn stored_energy_is_the_area_beside_the_law() {
-        let (values, memory) = ([1e-3, 0.0, 4.0], [20.0]);
+        let (values, memory) = ([1e-3, 0.0, 4.0, 0.0], [20.0, 12.0]);
         let at = |force| SlackGrowth.in_series(&values, force, 0.1, &memory).value;
         let steps = 2000;
         let area: f64 = (0..steps)
