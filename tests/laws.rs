@@ -120,6 +120,7 @@ fn scale() -> Scale {
         jumps: vec![],
         path: answers.windows(2).map(|two| rate(two) * STEP).sum(),
         period: 2.0 * LEG as f64 * STEP,
+        first_turns: (0.0, 0.0),
         slowest: 2.0 * LEG as f64 * STEP,
         step: STEP,
         judges_force: true,
@@ -317,18 +318,21 @@ fn refinements_are_neutral_at_the_start_and_acting_once_refined() {
         let name = cause.name();
         let starts = cause.starts(&scale);
         let lacks = |i: usize, values: &[f64]| cause.parameters()[i].neutral == Some(values[i]);
-        // Of two alternatives every shape has one from its start, and need not take on the other.
-        let alternative = |i: usize, j: usize| {
-            i != j
-                && starts.iter().any(|start| !lacks(i, start))
-                && cause.parameters()[j].neutral.is_some()
-                && starts
-                    .iter()
-                    .all(|start| lacks(i, start) != lacks(j, start))
+        let neutrals: Vec<usize> = (0..cause.parameters().len())
+            .filter(|&i| cause.parameters()[i].neutral.is_some())
+            .collect();
+        // Of alternatives every shape has one from its start, and need not take on the others.
+        let alternative = |start: &Vec<f64>, i: usize| {
+            let instead = |other: &Vec<f64>| {
+                let own = |&&j: &&usize| !lacks(j, start) && lacks(j, other);
+                !lacks(i, other) && neutrals.iter().any(|j| own(&j))
+            };
+            lacks(i, start) && starts.iter().any(instead)
         };
-        // A law of two forms, one to each shape, may have refinements of one of them alone.
-        let forms = (0..cause.parameters().len())
-            .any(|i| (0..cause.parameters().len()).any(|j| alternative(i, j)));
+        // A law of several forms, one to each shape, may have refinements of one of them alone.
+        let forms = starts
+            .iter()
+            .any(|start| neutrals.iter().any(|&i| alternative(start, i)));
         let of_one_form = |i: usize| {
             let refines =
                 |start: &Vec<f64>| lacks(i, start) && !lacks(i, &cause.refined(start, &scale));
@@ -341,9 +345,7 @@ fn refinements_are_neutral_at_the_start_and_acting_once_refined() {
             for ((i, (p, from)), to) in both.zip(&refined) {
                 match p.neutral {
                     Some(neutral) if neutral == *from => assert!(
-                        (*to != neutral
-                            || of_one_form(i)
-                            || (0..start.len()).any(|j| alternative(i, j)))
+                        (*to != neutral || of_one_form(i) || alternative(start, i))
                             && (p.lower..=p.upper).contains(to),
                         "{name}.{}: {from}, refined {to}",
                         p.name

@@ -139,6 +139,7 @@ fn effects() -> Vec<Acting> {
         jumps: vec![],
         path: 1e-3,
         period: 0.02,
+        first_turns: (0.0, 0.0),
         slowest: 0.02,
         step: STEP,
         judges_force: true,

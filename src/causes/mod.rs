@@ -70,6 +70,8 @@ pub struct Scale {
     pub dissipation: f64,
     /// Path of the displacement over the longest record \[m\].
     pub path: f64,
+    /// Energy \[J\] and path \[m\] of the same until the load has turned twice, the least of all records that do.
+    pub first_turns: (f64, f64),
     /// Lengths of all records in their order \[s\].
     pub lengths: Vec<f64>,
     /// Times at which the displacement may have jumped, counted through the records one after another

@@ -78,12 +78,11 @@ const SOON: f64 = 0.2;
 /// Share below which a loss that is over is running in. Between the two either word fits.
 const LATE: f64 = 0.08;
 
-/// Share below which a change is over before the load has turned: what a joint does then that was loaded before.
-const AT_ONCE: f64 = 1e-5;
-
-/// True of a change that is over as the records begin.
+/// True of a change that is over as the records begin, before the load has turned twice in any of them: so answers
+/// a joint that was loaded before.
 pub(super) fn at_once(values: &[f64], scale: &Scale) -> bool {
-    worn(AT_ONCE * scale.dissipation, AT_ONCE * scale.path, values) > 1.0
+    let (dissipation, path) = scale.first_turns;
+    worn(dissipation, path, values) > 1.0
 }
 
 /// True of a change that is mostly over so soon that it may be running in.
@@ -114,6 +113,7 @@ mod tests {
         let scale = Scale {
             dissipation: 10.0,
             path: 2.0,
+            first_turns: (1e-3, 1e-4),
             ..Scale::default()
         };
         let (lost, run_in) = (find("preload_loss").unwrap(), find("running_in").unwrap());
@@ -134,8 +134,15 @@ mod tests {
             }
         }
         // What is over as the records begin is nobody's.
-        for settles in [[-0.3, 5e-5, 0.0, 0.0, 0.0], [0.3, 5e-5, 0.0, 0.0, 0.0]] {
+        for settles in [[-0.3, 5e-4, 0.0, 0.0, 0.0], [0.3, 5e-4, 0.0, 0.0, 0.0]] {
             assert!(!run_in.plausible(&settles, &scale));
+            assert!(run_in.plausible(
+                &settles,
+                &Scale {
+                    first_turns: (1e-4, 1e-4),
+                    ..scale.clone()
+                }
+            ));
         }
         // Friction that grows, and stiffness, have one name.
         for grows in [[0.3, 1.2, 0.0, 0.0, 0.0], [0.0, 1.2, 0.0, 0.0, -1e-9]] {

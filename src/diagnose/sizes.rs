@@ -3,6 +3,7 @@
 use crate::causes::Scale;
 use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Form, Problem};
+use crate::record::cycles::turning_points;
 use crate::record::jumps::jumps;
 use crate::record::ringing::ringing;
 
@@ -12,15 +13,32 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
     let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut dissipation, mut path, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
     let mut slowest = 0.0_f64;
+    let mut first_turns: Option<(f64, f64)> = None;
     let mut tones = Vec::new();
     for (k, record) in problem.records.iter().enumerate() {
-        let mut last = 0.0;
-        let prediction = problem.pass(k, &first.coefficients, &[], |_, march, _| {
+        let (mut last, mut early) = (0.0, 0.0);
+        let turns = turning_points(problem.channels(k).0, BAND);
+        let turned = match turns[..] {
+            [_, _, turned, _, ..] => Some(turned),
+            _ => None,
+        };
+        let prediction = problem.pass(k, &first.coefficients, &[], |i, march, _| {
             last = march.dissipation();
+            if i.is_some() && i == turned {
+                early = last;
+            }
         });
         let truth = &prediction.truth;
-        let moves = truth.displacement.windows(2);
-        path = path.max(moves.map(|two| (two[1] - two[0]).abs()).sum());
+        let way = |displacement: &[f64]| -> f64 {
+            let moves = displacement.windows(2);
+            moves.map(|two| (two[1] - two[0]).abs()).sum()
+        };
+        path = path.max(way(&truth.displacement));
+        if let Some(turned) = turned {
+            let (energy, path) = first_turns.unwrap_or((f64::INFINITY, f64::INFINITY));
+            let to_turn = way(&truth.displacement[..=turned]);
+            first_turns = Some((energy.min(early), path.min(to_turn)));
+        }
         force = force.max(largest(&truth.force));
         displacement = displacement.max(largest(&truth.displacement));
         dissipation = dissipation.max(last);
@@ -49,6 +67,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         stiffness,
         dissipation,
         path,
+        first_turns: first_turns.unwrap_or_default(),
         lengths: problem.records.iter().map(Prepared::length).collect(),
         jumps: possible_jumps(problem),
         period,
@@ -58,6 +77,9 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         ringing: tones,
     }
 }
+
+/// Share of the range of the drive below which a turn of the load is none.
+const BAND: f64 = 0.02;
 
 /// Times the frequency of a load above which what rings is looked for.
 const FASTER: f64 = 2.0;

@@ -136,7 +136,7 @@ pub fn trials_of(
         };
         let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
         let own = fit.effect(cause.name());
-        let plausible = own.is_none_or(|a| cause.plausible(&a.values, scale));
+        let plausible = all_plausible(scale, &fit);
         Trial {
             cause: *cause,
             evidence: if plausible { fall } else { 0.0 } - penalty(problem, free(*cause, own)),

@@ -15,6 +15,7 @@ fn causes() -> Vec<(&'static str, String)> {
         jumps: vec![],
         path: 1e-3,
         period: 0.02,
+        first_turns: (0.0, 0.0),
         slowest: 0.02,
         step: 1e-3,
         judges_force: true,
