@@ -43,10 +43,12 @@ class Instrument(Scaled):
         raise NotImplementedError
 
     def read_force(self, trace):
-        return self.read(trace, trace.force)
+        return self.read(trace, trace.force) if self.channel == "force" else trace.force
 
     def read_displacement(self, trace):
-        return self.read(trace, trace.displacement)
+        if self.channel == "displacement":
+            return self.read(trace, trace.displacement)
+        return trace.displacement
 
     def describe(self):
         return {"channel": self.channel} | self.own()

@@ -165,6 +165,22 @@ class FollowUp(unittest.TestCase):
 
 
 class Effects(unittest.TestCase):
+    def test_a_fault_of_one_channel_leaves_the_other_alone(self):
+        reads = {"read_force": "force", "read_displacement": "displacement"}
+        for by_force in (True, False):
+            scene, rng = small_scene(1, by_force)
+            true = Sampled(scene, scene.clean, rig.Effect())
+            for name, effect in CATALOGUE.items():
+                drawn = effect(scene, rng)
+                if not drawn.acts <= set(reads):
+                    continue
+                drawn.strength = 0.5
+                read = Sampled(scene, scene.clean, drawn)
+                for hook, channel in reads.items():
+                    both = zip(getattr(read, channel), getattr(true, channel), strict=True)
+                    same = all(np.array_equal(one, other) for one, other in both)
+                    self.assertEqual(same, hook not in drawn.acts, f"{name}, {channel}")
+
     def test_a_load_cell_fails_where_the_force_answers_only(self):
         for by_force in (True, False):
             scene, rng = small_scene(1, by_force)
