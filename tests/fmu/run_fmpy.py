@@ -64,8 +64,8 @@ CAUSES = [
 ]
 OTHERS = {
     "quadratic_damping": {"coefficient": 1e4},
-    "clearance": {"gap": 2e-6, "seating_force": 20.0},
-    "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0},
+    "clearance": {"gap": 2e-6, "seating_force": 20.0, "drag": 5.0},
+    "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0, "drag": 4.0},
     "cubic_stiffness": {"cubic_compliance": 1e-15, "levelling": 1e-7, "across": 1e18},
     "joint_opening": {
         "compliance": 2e-9,
@@ -74,7 +74,12 @@ OTHERS = {
         "closed_stiffness": 1e5,
     },
     "asymmetric_friction": {"asymmetry": 0.1},
-    "normal_load_variation": {"sensitivity": 1e-4, "displacement_weight": 0.0},
+    "normal_load_variation": {
+        "sensitivity": 1e-4,
+        "displacement_weight": 0.0,
+        "even_sensitivity": 2e-5,
+        "quadratic_sensitivity": 1e-8,
+    },
     "preload_loss": {"loss": 0.1, "energy": 1.0, "tail": 0.3, "per_path": 10.0},
     "running_in": {
         "deficit": 0.1,
