@@ -25,9 +25,9 @@ pub(super) fn drag(seating_force: f64) -> f64 {
 }
 
 /// Force \[N\] on the seat, `y`: what is left of the force when parts that drag have moved as little as they could,
-/// `|F − y| ≤ F_d`.
+/// `|F − y| ≤ F_d`. A force that is no number, as a fit on its way may try, moves nothing.
 pub(super) fn on_seat(force: f64, before: f64, drag: f64) -> f64 {
-    before.clamp(force - drag, force + drag)
+    before.max(force - drag).min(force + drag)
 }
 
 /// Way \[m\] into a play of width g under a force, `s = (g/2) tanh(y/F_s)`.
