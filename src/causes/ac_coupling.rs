@@ -75,10 +75,7 @@ impl Effect for AcCoupling {
         chain::places(values[0] != 0.0, values[2] != 0.0)
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
-        let corner = match place {
-            Place::ForceChannel => values[2],
-            _ => values[0],
-        };
+        let corner = values[chain::first(place, 2)];
         let channel = truth.channel(place);
         let mut all = lost(corner, &truth.time, channel);
         if values[1] > 0.0 {

@@ -10,6 +10,15 @@ pub(super) fn places(of_sensor: bool, of_cell: bool) -> [Option<Place>; 2] {
     ]
 }
 
+/// Place among the values of the first one of the channel that such a law acts on; those of the load cell begin at
+/// `of_cell`.
+pub(super) fn first(place: Place, of_cell: usize) -> usize {
+    match place {
+        Place::ForceChannel => of_cell,
+        _ => 0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{Scale, find};

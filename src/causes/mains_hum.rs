@@ -100,10 +100,8 @@ impl Effect for MainsHum {
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
         let third = values[3] != 0.0 || values[4] != 0.0;
-        let [a, b] = match place {
-            Place::ForceChannel => [values[5], values[6]],
-            _ => [values[0], values[1]],
-        };
+        let sine_part = chain::first(place, 5);
+        let (a, b) = (values[sine_part], values[sine_part + 1]);
         let amplitude = (a * a + b * b).sqrt();
         let hum = |t: &f64| {
             let angle = std::f64::consts::TAU * values[2] * t;

@@ -79,10 +79,7 @@ impl Effect for OffsetStep {
         let share = |t: &f64| 0.5 + 0.5 * tanh(2.0 * (t - middle) / width);
         // A reading is set to zero before each record: it does not begin with the jump of one before it.
         let before = truth.time.first().map_or(0.0, share);
-        let height = match place {
-            Place::ForceChannel => values[3],
-            _ => values[0],
-        };
+        let height = values[chain::first(place, 3)];
         let times = truth.time.iter();
         times.map(|t| height * (share(t) - before)).collect()
     }

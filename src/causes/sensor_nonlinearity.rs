@@ -109,10 +109,7 @@ impl Effect for SensorNonlinearity {
         )
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
-        let values = match place {
-            Place::ForceChannel => &values[4..],
-            _ => values,
-        };
+        let values = &values[chain::first(place, 4)..];
         let error = |x: &f64| {
             let square = x * x;
             let even = values[0] * (1.0 + values[2] * square);

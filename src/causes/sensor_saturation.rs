@@ -151,10 +151,7 @@ impl Effect for SensorSaturation {
         chain::places(values[0] != 0.0, values[4] != 0.0)
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
-        let values = match place {
-            Place::ForceChannel => &values[4..],
-            _ => values,
-        };
+        let values = &values[chain::first(place, 4)..];
         let [positive, negative] = [values[1], values[2]];
         let knee = Knee::of(values);
         let samples = truth.channel(place).iter();

@@ -3,7 +3,6 @@
 use super::free_play::{DRAG, crossed, drag, on_seat, stored};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation};
-use crate::joint::elementary::tanh;
 use crate::joint::parameters::Parameter;
 
 /// Free play in the load path that past peaks have opened,
@@ -78,9 +77,10 @@ impl Effect for SlackGrowth {
     }
     fn in_series(&self, values: &[f64], force: f64, _step: f64, memory: &[f64]) -> Response {
         let (gap, growth) = gap(values, force.abs().max(memory[0]));
-        let response = crossed(gap, values[2], force, (memory[1], values[3]));
+        let way = |gap: f64| crossed(gap, values[2], force, (memory[1], values[3]));
+        let response = way(gap);
         let opening = if force.abs() > memory[0] {
-            0.5 * growth * tanh(on_seat(force, memory[1], values[3]) / values[2]).abs()
+            way(growth).value.abs()
         } else {
             0.0
         };

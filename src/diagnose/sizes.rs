@@ -1,6 +1,7 @@
 //! Sizes of the records that the starts of the search are measured in.
 
 use crate::causes::Scale;
+use crate::identify::beginning::BAND;
 use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Form, Problem};
 use crate::record::cycles::turning_points;
@@ -77,9 +78,6 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         ringing: tones,
     }
 }
-
-/// Share of the range of the drive below which a turn of the load is none.
-const BAND: f64 = 0.02;
 
 /// Times the frequency of a load above which what rings is looked for.
 const FASTER: f64 = 2.0;

@@ -32,7 +32,7 @@ pub struct Trial {
     /// Evidence against the set without it: fall of the misfit over the dispersion left, less the
     /// penalty for its parameters; the penalty alone where the values are another cause's.
     pub evidence: f64,
-    /// False where the fitted values are another cause's.
+    /// False where the fitted values are another cause's, be they those of one that was in the set before.
     pub plausible: bool,
 }
 

@@ -54,7 +54,7 @@ const HALF: f64 = 0.5;
 const FALL: f64 = 30.0;
 
 /// Share of the range below which a turn of the load is none.
-const BAND: f64 = 0.02;
+pub const BAND: f64 = 0.02;
 
 /// Shares of the way back to the last turn at which the load may have turned before the record began.
 const BACK: [f64; 3] = [0.25, 0.5, 0.75];

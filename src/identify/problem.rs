@@ -383,7 +383,8 @@ const ROUNDS: usize = 3;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::joint::effect::{Effect, Response, Situation, SlipLimit};
+    use crate::identify::rows::tests::Beside;
+    use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
 
     /// A load cell that reads too much.
@@ -472,28 +473,6 @@ mod tests {
         }
     }
 
-    /// A spring across the joint that pushes on.
-    struct Softening;
-
-    impl Effect for Softening {
-        fn name(&self) -> &'static str {
-            "softening"
-        }
-        fn place(&self) -> Place {
-            Place::BesideJoint
-        }
-        fn parameters(&self) -> &'static [Parameter] {
-            &[]
-        }
-        fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
-            Response {
-                value: -values[0] * displacement,
-                slope: -values[0],
-                damping: 0.0,
-            }
-        }
-    }
-
     #[test]
     fn beside_a_spring_that_softens_the_network_carries_more_than_the_force() {
         let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
@@ -503,14 +482,15 @@ mod tests {
             force,
             ..Record::default()
         };
+        static BESIDE: Beside = Beside(Place::BesideJoint);
         let problem = Problem::new(Form::Play, &[record]);
         let cells = problem.operators.edges.len();
         let largest = |softer: f64, beyond: f64| {
             let mut coefficients = vec![0.0; problem.operators.columns()];
             (coefficients[0], coefficients[1 + cells]) = (1.0, beyond);
             let softening = Acting {
-                effect: &Softening,
-                values: vec![softer],
+                effect: &BESIDE,
+                values: vec![0.0, -softer, 0.0],
             };
             let predicted = &problem.predict(&coefficients, &[softening])[0];
             let judged = predicted.judged.iter();

@@ -95,7 +95,7 @@ pub(super) fn each_row(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::identify::Form;
     use crate::identify::inertia::tests::Mass;
@@ -103,8 +103,8 @@ mod tests {
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
 
-    /// A dashpot or a spring beside the joint, a spring in its load path.
-    struct Beside(Place);
+    /// A dashpot, a spring and a cubic one beside the joint, or a spring in its load path.
+    pub(in crate::identify) struct Beside(pub Place);
 
     impl Effect for Beside {
         fn name(&self) -> &'static str {
@@ -117,9 +117,10 @@ mod tests {
             &[]
         }
         fn beside_joint(&self, values: &[f64], displacement: f64, velocity: f64) -> Response {
+            let square = displacement * displacement;
             Response {
-                value: values[0] * velocity + values[1] * displacement.powi(3),
-                slope: 3.0 * values[1] * displacement.powi(2),
+                value: values[0] * velocity + (values[1] + values[2] * square) * displacement,
+                slope: values[1] + 3.0 * values[2] * square,
                 damping: values[0],
             }
         }
@@ -133,16 +134,17 @@ mod tests {
     }
 
     /// Beside a dashpot whose force is a third of the joint's, a spring that softens by a fifth of it, a mass, or with a
-    /// spring in the load path, sampled four hundred times a cycle, the rows are the derivatives of a joint that slips
+    /// spring in the load path, one that stiffens it included, sampled four hundred times a cycle, the rows are the derivatives of a joint that slips
     /// all the way; what a step answers at once alone is off by a good part of them.
     #[test]
     fn rows_of_a_joint_with_something_beside_it_are_derivatives_of_the_pass() {
         static BESIDE: Beside = Beside(Place::BesideJoint);
         static IN_PATH: Beside = Beside(Place::Spring);
-        rows_are_derivatives(Form::Play, (&BESIDE, &[5e6, 0.0]));
-        rows_are_derivatives(Form::Play, (&BESIDE, &[0.0, -2e18]));
+        rows_are_derivatives(Form::Play, (&BESIDE, &[5e6, 0.0, 0.0]));
+        rows_are_derivatives(Form::Play, (&BESIDE, &[0.0, 0.0, -2e18]));
         rows_are_derivatives(Form::Play, (&Mass, &[4e5]));
-        rows_are_derivatives(Form::Stop, (&IN_PATH, &[4e-9, 0.0]));
+        rows_are_derivatives(Form::Stop, (&IN_PATH, &[4e-9]));
+        rows_are_derivatives(Form::Stop, (&IN_PATH, &[-5e-10]));
     }
 
     fn rows_are_derivatives(form: Form, (effect, values): (&'static dyn Effect, &[f64])) {

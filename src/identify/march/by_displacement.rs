@@ -1,6 +1,6 @@
 //! A step of a joint that displacement drives: its slip is the unknown.
 
-use super::{MOST_TRIALS, March, PRECISE, Step};
+use super::{MOST_TRIALS, March, PRECISE, Step, share};
 use crate::identify::bracket::Bracket;
 
 impl March<'_> {
@@ -34,7 +34,7 @@ impl March<'_> {
                 return Step {
                     force: joint_force + across.force,
                     displacement,
-                    share: (1.0 / slope).clamp(0.0, 1.0),
+                    share: share(slope),
                     input: [-path_slope, 0.0],
                     ..Step::default()
                 };

@@ -1,12 +1,8 @@
 //! A step of a joint that force drives: the network's force is the unknown.
 
-use super::{MOST_TRIALS, March, PRECISE, Step};
+use super::{MOST_TRIALS, March, PRECISE, Step, share};
 use crate::identify::bracket::Bracket;
 use crate::identify::inertia::Carried;
-
-/// Slope of a step's equation, of a unit of the network's force, below which the joint snaps through and no
-/// derivative says where to.
-const SOFTEST: f64 = 0.05;
 
 /// Rounding of a difference of displacements, as a share of one.
 const ROUNDED: f64 = 1e-15;
@@ -36,7 +32,7 @@ impl March<'_> {
             let error = joint_force + across.force + hauled.force - force;
             let slope = joint_slope + (across.slope + hauled.slope) * displacement_slope;
             answer = (slip, joint_force, displacement, across.velocity);
-            let share = if slope > SOFTEST { 1.0 / slope } else { 0.0 };
+            let share = share(slope);
             let next = bracket.next(trial, error, slope, 2.0 * error);
             let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {

@@ -68,6 +68,15 @@ fn index(place: Place) -> usize {
     place as usize
 }
 
+/// Slope of a step's equation, of a unit of the network's input, below which the joint snaps through and no derivative
+/// says where to.
+const SOFTEST: f64 = 0.05;
+
+/// d judged / d network output, of a step's equation with this slope.
+fn share(slope: f64) -> f64 {
+    if slope > SOFTEST { 1.0 / slope } else { 0.0 }
+}
+
 /// The cells that a march carries along.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
