@@ -7,18 +7,34 @@ use crate::joint::parameters::Parameter;
 use crate::joint::passed::Passed;
 
 /// The load cell reads the force that moves a mass as well, `F_meas = F + m Ü`.
+///
+/// Where force drives, mass and joint are a system that rings, and the measured force drives it. A cell or a record
+/// too slow for that shows the inertia of the joint's forced motion alone: with a driven mass `F_meas = F + m_d Ü` is
+/// solved for the F that the joint bore in turns, Ü over [`SLOW`] samples.
 pub struct FixtureInertia;
 
-static PARAMETERS: [Parameter; 1] = [Parameter {
-    name: "mass",
-    symbol: "m",
-    unit: "kg",
-    lower: 0.0,
-    upper: 1e6,
-    vanishes_at: Some(0.0),
-    neutral: None,
-    meaning: "moving mass between the load cell and the joint",
-}];
+static PARAMETERS: [Parameter; 2] = [
+    Parameter {
+        name: "mass",
+        symbol: "m",
+        unit: "kg",
+        lower: 0.0,
+        upper: 1e6,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "moving mass between the load cell and the joint",
+    },
+    Parameter {
+        name: "driven_mass",
+        symbol: "m_d",
+        unit: "kg",
+        lower: 0.0,
+        upper: 1e6,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "such a mass, where the cell is too slow for its ringing on the joint",
+    },
+];
 
 /// Inertia at the starts, as a share of the force. Where force drives, a mass too small by far rings on where the
 /// right one does not, and no slope of the misfit leads from there to it.
@@ -30,9 +46,13 @@ const NOISY: f64 = 0.1;
 /// Share of a record that a difference reaches over at most, to either side.
 const REACH: f64 = 0.125;
 
-/// Ü \[m/s²\] by differences over at least a sample to either side, and so far that a measured displacement's noise
+/// Samples that a slow cell's acceleration reaches over at least: corners of the motion, which a model turns within
+/// a sample, are blurred by its amplifier.
+const SLOW: f64 = 4.0;
+
+/// Ü \[m/s²\] by differences over at least so many samples to either side, and so far that a measured displacement's noise
 /// is small beside it, with the loss that they have at the motion's own frequency made good.
-fn acceleration(truth: &Trajectory) -> Vec<f64> {
+fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
     let (time, displacement) = (&truth.time, &truth.displacement);
     let count = time.len();
     let frequency = truth.frequency();
@@ -50,7 +70,7 @@ fn acceleration(truth: &Trajectory) -> Vec<f64> {
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
-            let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
+            let reach = reach.max(samples * (time[after] - time[before]) / (after - before) as f64);
             // Constant near either end.
             let middle = time[sample]
                 .max(time[0] + reach)
@@ -100,14 +120,21 @@ impl Effect for FixtureInertia {
         &PARAMETERS
     }
     fn inertia(&self, values: &[f64]) -> Option<f64> {
-        Some(values[0])
+        (values[1] == 0.0).then_some(values[0])
     }
     /// What a mass changes of the force's peaks moves the turning points of every operator.
     fn jumps_with(&self, _parameter: usize) -> bool {
         true
     }
     fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
-        acceleration(truth).iter().map(|a| values[0] * a).collect()
+        let mut sum = vec![0.0; truth.time.len()];
+        for (mass, samples) in [(values[0], 1.0), (values[1], SLOW)] {
+            if mass != 0.0 {
+                let moved = acceleration(truth, samples).into_iter();
+                sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
+            }
+        }
+        sum
     }
 }
 
@@ -118,7 +145,7 @@ impl Cause for FixtureInertia {
             sign: "Loops tilt with the square of the frequency and keep their area: less force at the turning points than at slow rates; peaks in force where the motion is jerky.",
             mistaken_for: &["sensor_delay", "quadratic_damping", "creep"],
             separated_by: "Two frequencies: stiffness falls with the square of the frequency and the area stays; a delay changes the area; an accelerometer at the grip, or a run without specimen, gives the mass itself.",
-            formula: "F_measured = F + m d2U/dt2",
+            formula: "F_measured = F + m d2U/dt2, with m_d for m where nothing rings",
             source: "Newton; inertia correction of dynamic load cells, ISO 4965.",
         }
     }
@@ -133,8 +160,10 @@ impl Cause for FixtureInertia {
         let whole = scale.force / acceleration;
         // A mass that rings on the joint does so at its own frequency.
         let rings = scale.ringing.iter().map(|w| scale.stiffness / square(*w));
-        let shares = STARTS.iter().map(|share| share * whole);
-        shares.chain(rings).map(|mass| vec![mass]).collect()
+        let shares = STARTS.map(|share| share * whole);
+        let marched = shares.into_iter().chain(rings).map(|m| vec![m, 0.0]);
+        let driven = shares.into_iter().map(|m| vec![0.0, m]);
+        marched.chain(driven).collect()
     }
 }
 
@@ -153,11 +182,14 @@ mod tests {
         };
         // From nothing to a tenth of the force, where the reach is a radian.
         for mass in [1.0, 300.0, 6250.0] {
-            let added = FixtureInertia.channel(&[mass], Place::ForceChannel, &truth);
+            let marched = FixtureInertia.channel(&[mass, 0.0], Place::ForceChannel, &truth);
+            let driven = FixtureInertia.channel(&[0.0, mass], Place::ForceChannel, &truth);
             // Near either end, within twice the reach, it is held constant.
-            for (added, u) in added.iter().zip(&truth.displacement).skip(200).take(3600) {
+            let both = marched.iter().zip(&driven).zip(&truth.displacement);
+            for ((marched, driven), u) in both.skip(200).take(3600) {
                 // The record holds no whole number of cycles: its frequency is known to 0.1 %.
-                assert!((added + mass * 400.0 * u).abs() < 1e-3 * mass * 400.0 * 2e-6);
+                let (right, close) = (-mass * 400.0 * u, 1e-3 * mass * 400.0 * 2e-6);
+                assert!((marched - right).abs() < close && (driven - right).abs() < close);
             }
         }
     }
@@ -172,7 +204,7 @@ mod tests {
         };
         for count in [0, 1, 2, 3, 50] {
             assert_eq!(
-                FixtureInertia.channel(&[3.0], Place::ForceChannel, &still(count)),
+                FixtureInertia.channel(&[3.0, 4.0], Place::ForceChannel, &still(count)),
                 vec![0.0; count]
             );
         }

@@ -10,10 +10,11 @@ use crate::joint::parameters::Parameter;
 /// `g(x) = (x + √(x² + r²))/2`, less what it is at no force.
 ///
 /// Or a stiffness across the whole joint on one side of rest, of surfaces that meet there:
-/// `f = k_c max(U, 0)`, and for `k_c < 0`, on the other side, `f = −|k_c| max(−U, 0)`.
+/// `f = k_c max(U, 0)`, and for `k_c < 0`, on the other side, `f = −|k_c| max(−U, 0)`; where they meet
+/// little by little, rounded over `u_c` likewise.
 pub struct JointOpening;
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter; 5] = [
     Parameter {
         name: "compliance",
         symbol: "c_o",
@@ -54,9 +55,19 @@ static PARAMETERS: [Parameter; 4] = [
         neutral: Some(0.0),
         meaning: "stiffness that the joint has more on one side of rest; its sign tells the side",
     },
+    Parameter {
+        name: "closing",
+        symbol: "u_c",
+        unit: "m",
+        lower: 0.0,
+        upper: 1.0,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "displacement over which the surfaces meet; 0: at once",
+    },
 ];
 
-/// Share of the largest force from which a rounding is refined.
+/// Share of the largest force or displacement from which a rounding is refined.
 const LITTLE_BY_LITTLE: f64 = 0.05;
 
 /// max(x, 0) rounded over `r`, and its slope.
@@ -86,13 +97,12 @@ impl Effect for JointOpening {
         [Some(self.place()), also]
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
-        let closed = match displacement * values[3] > 0.0 {
-            true => values[3].abs(),
-            false => 0.0,
-        };
+        let side = values[3].signum();
+        let (met, slope) = rounded(side * displacement, values[4]);
+        let (at_rest, _) = rounded(0.0, values[4]);
         Response {
-            value: closed * displacement,
-            slope: closed,
+            value: values[3] * (met - at_rest),
+            slope: values[3].abs() * slope,
             damping: 0.0,
         }
     }
@@ -121,7 +131,7 @@ impl Cause for JointOpening {
                 "pinning",
             ],
             separated_by: "The kink sits at a force, not at a displacement, and adds no area; below the opening force the baseline is exact; a normal load that follows the force changes the area of the loops too.",
-            formula: "F = F_j + k_c max(U, 0), or U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2",
+            formula: "F = F_j + k_c max(U, 0), or U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2, likewise max(U, 0) over u_c",
             source: "Preloaded bolted joint beyond separation, VDI 2230; bilinear spring.",
         }
     }
@@ -130,22 +140,22 @@ impl Cause for JointOpening {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let compliance = 0.01 * scale.displacement / scale.force;
+        let stiffness = 0.01 * scale.force / scale.displacement;
         [0.02, -0.02, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75]
             .iter()
-            .map(|share| vec![compliance, share * scale.force, 0.0, 0.0])
-            .chain([vec![0.0, 0.0, 0.0, 0.01 * scale.force / scale.displacement]])
+            .map(|share| vec![compliance, share * scale.force, 0.0, 0.0, 0.0])
+            .chain([vec![0.0, 0.0, 0.0, stiffness, 0.0]])
             .collect()
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        match values[0] == 0.0 {
-            true => values.to_vec(),
-            false => vec![
-                values[0],
-                values[1],
-                LITTLE_BY_LITTLE * scale.force,
-                values[3],
-            ],
+        let mut finer = values.to_vec();
+        if values[0] != 0.0 {
+            finer[2] = LITTLE_BY_LITTLE * scale.force;
         }
+        if values[3] != 0.0 {
+            finer[4] = LITTLE_BY_LITTLE * scale.displacement;
+        }
+        finer
     }
 }
 
@@ -155,7 +165,7 @@ mod tests {
 
     #[test]
     fn it_is_softer_beyond_the_opening_force_and_there_only() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0, 0.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0, 0.0, 0.0], force);
         assert_eq!((at(3.0, 5.0).value, at(3.0, 5.0).slope), (4.0, 2.0));
         assert_eq!(at(3.0, -5.0), Response::default());
         assert_eq!((at(-3.0, -5.0).value, at(-3.0, -5.0).slope), (-4.0, 2.0));
@@ -166,7 +176,7 @@ mod tests {
 
     #[test]
     fn it_is_stiffer_across_on_the_side_of_the_sign() {
-        let at = |stiffness, u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness], u, 1.0);
+        let at = |stiffness, u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness, 0.0], u, 1.0);
         assert_eq!((at(3.0, 2.0).value, at(3.0, 2.0).slope), (6.0, 3.0));
         assert_eq!((at(-3.0, -2.0).value, at(-3.0, -2.0).slope), (-6.0, 3.0));
         assert_eq!(at(3.0, -2.0), Response::default());
@@ -175,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_rounding_parts_the_surfaces_little_by_little() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0, 0.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0, 0.0, 0.0], force);
         for opens in [3.0, -3.0] {
             assert_eq!(at(opens, 0.0).value, 0.0);
             let far = at(opens, 1e6 * opens).value - 2.0 * (1e6 - 1.0) * opens;
@@ -188,5 +198,20 @@ mod tests {
         }
         // g(0) = r/2 at the opening force, less g(-3) = (5 - 3)/2.
         assert_eq!(at(3.0, 3.0).value, 2.0 * (2.0 - 1.0));
+    }
+
+    #[test]
+    fn surfaces_meet_little_by_little() {
+        for stiffness in [3.0, -3.0] {
+            let at = |u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness, 4.0], u, 1.0);
+            assert_eq!(at(0.0).value, 0.0);
+            // g(3) - g(0) = (3 + 5)/2 - 2.
+            assert_eq!(at(stiffness).value, stiffness * 2.0);
+            for u in [-7.0, -0.1, 2.0, 9.0] {
+                let step = 1e-6;
+                let rise = at(u + step).value - at(u - step).value;
+                assert!((rise / (2.0 * step) - at(u).slope).abs() < 1e-8);
+            }
+        }
     }
 }

@@ -303,7 +303,7 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
             // Noise leaves at least itself after any fit: an estimate above what the baseline
             // leaves holds a change of the response from cycle to cycle.
             let most = 1.2 * rms(residual);
-            let own = own.filter(|n| n.deviation <= most);
+            let own = own.filter(|n| n.deviation <= most && !n.holds_a_change(residual));
             let lent = lent.filter(|n| n.deviation <= most);
             let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(residual));

@@ -1,6 +1,6 @@
 //! The noise of a channel, read off what a model leaves or off the fastest variations.
 
-use super::spectrum::fast_noise;
+use super::spectrum::{FastNoise, fast_noise};
 
 /// Noise of one channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,22 @@ impl Noise {
         let error = ((1.0 - a * a) / self.told_by().max(1.0)).sqrt();
         (a + 2.0 * error).min(MOST_ALIKE.max(a))
     }
+
+    /// True where a few repeated cycles tell more slow noise than the fast part of the whole residual allows: one
+    /// of them holds a change of the response, a jump of the gain, and too few are calm to tell it by.
+    pub fn holds_a_change(&self, residual: &[f64]) -> bool {
+        let a = self.autoregression;
+        let independent = self.told_by() * (1.0 - a * a) / (1.0 + a * a);
+        independent < FEW && fast_beneath(self.deviation, residual).is_some()
+    }
+}
+
+/// Independent samples from which a variance is told within a fifth.
+const FEW: f64 = 50.0;
+
+/// The noise in the fast part of a residual's spectrum, where it is of less than half that variance at most.
+fn fast_beneath(deviation: f64, residual: &[f64]) -> Option<FastNoise> {
+    fast_noise(residual).filter(|fast| 2.0 * fast.most.powi(2) < deviation.powi(2))
 }
 
 /// Ratio `1 + 2 (4² + 1²)/6²` of variances: second differences `(1, −2, 1)` one cycle apart correlate
@@ -53,11 +69,9 @@ pub fn independence(autoregression: f64) -> f64 {
 /// noise of less than half that variance at most: the rest is then structure that a model misses.
 pub fn from_residual(residual: &[f64]) -> Noise {
     let (deviation, autoregression) = moments(&[residual]);
-    let (deviation, autoregression) = match fast_noise(residual) {
-        Some(fast) if 2.0 * fast.most.powi(2) < deviation.powi(2) => {
-            (fast.deviation, fast.autoregression)
-        }
-        _ => (deviation, autoregression),
+    let (deviation, autoregression) = match fast_beneath(deviation, residual) {
+        Some(fast) => (fast.deviation, fast.autoregression),
+        None => (deviation, autoregression),
     };
     Noise {
         deviation,

@@ -66,12 +66,18 @@ OTHERS = {
     "quadratic_damping": {"coefficient": 1e4},
     "clearance": {"gap": 2e-6, "seating_force": 20.0, "drag": 5.0},
     "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0, "drag": 4.0},
-    "cubic_stiffness": {"cubic_compliance": 1e-15, "levelling": 1e-7, "across": 1e18},
+    "cubic_stiffness": {
+        "cubic_compliance": 1e-15,
+        "levelling": 1e-7,
+        "across": 1e18,
+        "across_levelling": 1e9,
+    },
     "joint_opening": {
         "compliance": 2e-9,
         "opening_force": 50.0,
         "rounding": 5.0,
         "closed_stiffness": 1e5,
+        "closing": 1e-7,
     },
     "asymmetric_friction": {"asymmetry": 0.1},
     "normal_load_variation": {

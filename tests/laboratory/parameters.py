@@ -75,6 +75,11 @@ def _corner(channel):
     return _where("corner_Hz", order=(1,), channel=(channel,))
 
 
+def _mass(p):
+    """Of the form that was found; the other is nothing."""
+    return max(p["mass"], p["driven_mass"])
+
+
 QUANTITIES = [
     Quantity("viscous_damping", "coefficient", _read("coefficient_Ns_per_m")),
     Quantity("quadratic_damping", "coefficient", _read("coefficient_Ns2_per_m2")),
@@ -96,7 +101,7 @@ QUANTITIES = [
         lambda t: t["breakaway_over_kinetic"] - 1.0,
         False,
     ),
-    Quantity("fixture_inertia", "mass", _read("mass_kg")),
+    Quantity("fixture_inertia", "mass", _read("mass_kg"), True, _mass),
     Quantity(
         "sensor_delay",
         "delay",
