@@ -291,7 +291,9 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
         .enumerate()
         .map(|(k, residual)| {
             let (input, judged) = problem.channels(k);
-            from_repeats(input, judged).or_else(|| from_steady_changes(input, residual))
+            let repeated = from_repeats(input, judged);
+            let found = repeated.or_else(|| from_steady_changes(input, residual));
+            found.filter(|n| !n.holds_a_change(residual))
         })
         .collect();
     let lent = own.iter().flatten().max_by_key(|n| n.samples).copied();
@@ -303,7 +305,7 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
             // Noise leaves at least itself after any fit: an estimate above what the baseline
             // leaves holds a change of the response from cycle to cycle.
             let most = 1.2 * rms(residual);
-            let own = own.filter(|n| n.deviation <= most && !n.holds_a_change(residual));
+            let own = own.filter(|n| n.deviation <= most);
             let lent = lent.filter(|n| n.deviation <= most);
             let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(residual));

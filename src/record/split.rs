@@ -8,15 +8,17 @@ use super::cycles::{Cycle, alike, cycles};
 /// About a fifth of the record; a record without cycles gives its last eighth and a piece of its
 /// middle. The first cycle and the virgin leg always stay with the fit, and so does a cycle of the largest
 /// load: what a joint does beyond the loads of the fit is not told by them. Where the last cycles hold all of
-/// those, the ones before are set aside in their place.
+/// those, the ones before are set aside in their place, and where a begun cycle behind the last one does, that stays.
 pub fn held_out(drive: &[f64]) -> Vec<bool> {
     let mut held = vec![false; drive.len()];
     let found = cycles(drive);
     let mut mark = |from: usize, to: usize| held[from..to].iter_mut().for_each(|h| *h = true);
     if found.len() < 6 {
-        let n = drive.len();
-        mark(n * 7 / 16, n / 2);
-        mark(n * 7 / 8, n);
+        for pieces in [IN_THE_MIDDLE, AT_THE_END] {
+            if let Some((from, to)) = piece(drive, &pieces) {
+                mark(from, to);
+            }
+        }
         return held;
     }
     let count = (found.len() / 10).max(1);
@@ -26,9 +28,12 @@ pub fn held_out(drive: &[f64]) -> Vec<bool> {
         Some(first) if first >= at_end => first - count,
         _ => at_end,
     };
-    let to = found
-        .get(last + count)
-        .map_or(drive.len(), |next| next.start);
+    let behind = found[found.len() - 1].end;
+    let to = match found.get(last + count) {
+        Some(next) => next.start,
+        None if is_largest_alone(drive, (behind, drive.len())) => behind,
+        None => drive.len(),
+    };
     mark(found[last].start, to);
     let budget = drive.len() / 7;
     if let Some((from, to)) = middle_level(&found[1..last], &largest[1..last], budget) {
@@ -39,6 +44,24 @@ pub fn held_out(drive: &[f64]) -> Vec<bool> {
 
 /// Part of the largest load from which a cycle counts as one of it.
 const AS_LARGE: f64 = 0.97;
+
+/// Sixteenths of a record without cycles of which the first is set aside that does not hold the largest load alone.
+const IN_THE_MIDDLE: [(usize, usize); 3] = [(7, 8), (9, 10), (5, 6)];
+const AT_THE_END: [(usize, usize); 3] = [(14, 16), (12, 14), (10, 12)];
+
+/// The first piece, in sixteenths of the record, that may be set aside.
+fn piece(drive: &[f64], sixteenths: &[(usize, usize)]) -> Option<(usize, usize)> {
+    let at = |share: usize| drive.len() * share / 16;
+    let mut pieces = sixteenths.iter().map(|&(from, to)| (at(from), at(to)));
+    pieces.find(|&piece| !is_largest_alone(drive, piece))
+}
+
+/// True where no sample outside a piece comes near its largest load.
+fn is_largest_alone(drive: &[f64], (from, to): (usize, usize)) -> bool {
+    let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let within = most(&drive[from..to]);
+    most(&drive[..from]).max(most(&drive[to..])) < AS_LARGE * within
+}
 
 /// Which cycles reach the largest load, up or down.
 fn largest(drive: &[f64], found: &[Cycle]) -> Vec<bool> {
@@ -127,9 +150,27 @@ mod tests {
     }
 
     #[test]
-    fn a_ramp_gives_pieces() {
-        let drive: Vec<f64> = (0..800).map(f64::from).collect();
+    fn a_begun_cycle_of_the_largest_load_stays_with_the_fit() {
+        let mut drive = sines(&[0.5; 12]);
+        let begun = sines(&[1.0]);
+        drive.extend_from_slice(&begun[..76]);
         let held = held_out(&drive);
-        assert_eq!(held.iter().filter(|h| **h).count(), 150);
+        // Cycles begin a sample behind their zero.
+        assert!(held[1201..].iter().all(|h| !h) && held[1101..1201].iter().all(|h| *h));
+    }
+
+    #[test]
+    fn a_ramp_gives_pieces_but_not_its_top() {
+        let up: Vec<f64> = (0..800).map(f64::from).collect();
+        let up_and_down: Vec<f64> = (0..800_i32)
+            .map(|i| f64::from(400 - (i - 400).abs()))
+            .collect();
+        for (drive, last) in [(up, 700), (up_and_down, 800)] {
+            let held = held_out(&drive);
+            assert_eq!(held.iter().filter(|h| **h).count(), 150);
+            assert_eq!(held.iter().rposition(|h| *h), Some(last - 1));
+            let top = drive.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+            assert!(top.is_some_and(|(at, _)| !held[at]));
+        }
     }
 }
