@@ -34,7 +34,7 @@ pub fn investigated(
     let bench = prepare(records, &virgin);
     let first = baseline(&bench.train);
     let others = beginnings(&bench.train, &first);
-    // Who starts a record at zero has a virgin joint as a rule, and who starts elsewhere has none.
+    // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
     let train = &bench.train;
     let at_zero: Vec<bool> = (0..records.len())
         .map(|k| at_zero(train.channels(k).0))
@@ -43,6 +43,7 @@ pub fn investigated(
         let mut both = i.beginnings().zip(&at_zero);
         match i.is_virgin() {
             true => at_zero.contains(&false),
+            false if i.beginnings().all(|b| b.turned.is_empty()) => false,
             false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
         }
     };

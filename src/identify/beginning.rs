@@ -34,14 +34,18 @@ impl Beginning {
         *self == Beginning::default()
     }
 
-    /// Count of values that it takes to say.
+    /// Count of values that it takes to say: turns before the record; a zero is its first reading.
     pub fn values(&self) -> usize {
-        usize::from(self.zero != 0.0) + self.turned.len()
+        self.turned.len()
     }
 }
 
 /// Share of the largest reading below which the first one is zero.
 const ZERO: f64 = 0.02;
+
+/// Share of the largest reading from which the first one may be an offset of the zero: below it no noise of a cell
+/// shows the difference.
+const OFFSET: f64 = 0.002;
 
 /// Mean square of what the baseline leaves in the beginning, over that of the rest, above which another
 /// beginning is tried.
@@ -63,8 +67,8 @@ const BACK: [f64; 3] = [0.25, 0.5, 0.75];
 ///
 /// Each record is asked alone, by the misfit of the best joint for it: another beginning has to take away half of
 /// what a virgin joint leaves until the load has turned twice; where the first reading is not zero, which a
-/// virgin joint's is as a rule, any part of it. There the reading itself as the zero is another alternative to the
-/// turns before it, however much it leaves beside causes not yet known. `first` is the baseline of virgin joints.
+/// virgin joint's is as a rule, any part of it. The first readings themselves as the zeros are another alternative to
+/// the turns before them, however much they leave beside causes not yet known. `first` is the baseline of virgin joints.
 pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
@@ -74,7 +78,7 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
         .collect();
     let reading = |record: &Prepared| {
         let (input, _) = record.channels(form);
-        match at_zero(input) {
+        match begins_within(OFFSET, input) {
             true => Beginning::default(),
             false => Beginning::at(input[0]),
         }
@@ -88,8 +92,12 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
 
 /// True where the first reading is none beside the largest.
 pub fn at_zero(input: &[f64]) -> bool {
+    begins_within(ZERO, input)
+}
+
+fn begins_within(share: f64, input: &[f64]) -> bool {
     let largest = input.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    input.first().is_none_or(|x| x.abs() <= ZERO * largest)
+    input.first().is_none_or(|x| x.abs() <= share * largest)
 }
 
 fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {

@@ -123,3 +123,46 @@ pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
         },
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of even distribution in ±√3, and so of unit variance.
+    fn white(count: usize) -> Vec<f64> {
+        let mut state = 3_u64;
+        // Knuth's linear congruential generator, its upper bits.
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..count)
+            .map(|_| 12.0_f64.sqrt() * (random() - 0.5))
+            .collect()
+    }
+
+    #[test]
+    fn slow_noise_of_few_cycles_is_doubted_where_the_residual_has_none_so_fast() {
+        let told = |samples| Noise {
+            deviation: 5.0,
+            autoregression: 0.97,
+            samples,
+            repeated: true,
+        };
+        let still = white(4000);
+        assert!(told(300).holds_a_change(&still));
+        assert!(!told(300_000).holds_a_change(&still));
+        let mut last = 0.0;
+        let innovation = 5.0 * (1.0 - 0.97_f64.powi(2)).sqrt();
+        let slow: Vec<f64> = still
+            .iter()
+            .map(|z| {
+                last = 0.97 * last + innovation * z;
+                last
+            })
+            .collect();
+        assert!(!told(300).holds_a_change(&slow));
+    }
+}
