@@ -57,8 +57,14 @@ pub fn investigated(
     let leading = |all: &[Investigation]| {
         let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
         let unlikely = |i: &Investigation| {
-            let margin = if against_rule(i) { ALARM } else { 0.0 };
-            i.unlikeliness(scale) + margin
+            // Where a past is the rule, a virgin joint and a cause that does its work are two oddities.
+            let called_for = i.is_virgin() && !i.found.best.effects.is_empty();
+            let oddities = match (against_rule(i), called_for) {
+                (false, _) => 0.0,
+                (true, false) => 1.0,
+                (true, true) => 2.0,
+            };
+            i.unlikeliness(scale) + oddities * ALARM
         };
         let order = all.iter().map(unlikely).enumerate();
         let least = order.min_by(|(_, a), (_, b)| a.total_cmp(b));

@@ -72,16 +72,27 @@ pub fn joint(levels: &Levels, model: &Model, known: &Known) -> Result<Joint, Joi
     Joint::new(Density::Sliders(sliders), f64::INFINITY, effects)
 }
 
-/// Values of the catalogue's parameters for an effect of that size; `stiffness` is that of the
-/// joint before slip, by which a cube of the displacement that softens becomes one of the force,
-/// `b = −κ/K⁴` to leading order: that holds at any load, where a force across the joint would fall.
+/// Values of the catalogue's parameters for an effect of that size, neutral ones but for those that a table shows;
+/// `stiffness` is that of the joint before slip, by which a cube of the displacement that softens becomes one of the
+/// force, `b = −κ/K⁴` to leading order: that holds at any load, where a force across the joint would fall.
 pub fn parameters(shown: Shown, size: f64, stiffness: f64) -> Vec<f64> {
-    match shown {
-        Shown::Viscous | Shown::Quadratic => vec![size],
-        Shown::Cubic if size > 0.0 => vec![0.0, 0.0, size],
-        Shown::Cubic => vec![-size / stiffness.powi(4), 0.0, 0.0],
-        Shown::Pinning { gap } => vec![size, gap, gap, 0.0, 1.0],
-    }
+    let seen: Vec<(&str, f64)> = match shown {
+        Shown::Viscous | Shown::Quadratic => vec![("coefficient", size)],
+        Shown::Cubic if size > 0.0 => vec![("across", size)],
+        Shown::Cubic => vec![("cubic_compliance", -size / stiffness.powi(4))],
+        Shown::Pinning { gap } => {
+            vec![
+                ("stiffness", size),
+                ("gap_positive", gap),
+                ("gap_negative", gap),
+            ]
+        }
+    };
+    let value = |parameter: &Parameter| {
+        let seen = seen.iter().find(|(name, _)| *name == parameter.name);
+        seen.map_or(parameter.neutral.unwrap_or_default(), |(_, value)| *value)
+    };
+    glossary(shown).iter().map(value).collect()
 }
 
 /// Parameters of an effect in the catalogue.
