@@ -7,7 +7,7 @@ use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::cycles::span;
-use crate::record::noise::{Noise, from_differences, from_residual};
+use crate::record::noise::{Noise, beneath_mains, from_differences, from_residual};
 use crate::record::outliers::{Neighbours, outliers, scattered};
 use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::split::held_out;
@@ -53,7 +53,12 @@ pub fn form(records: &[Record]) -> Form {
     let (mut force, mut displacement) = (0.0, 0.0);
     for record in records {
         let noise = |channel: &[f64]| {
-            let fast = from_differences(channel).deviation;
+            // A hum on a prescribed displacement is the sensor's: it says nothing of who drives.
+            let fast = match &record.time {
+                Some(time) => beneath_mains(time, channel),
+                None => from_differences(channel),
+            };
+            let fast = fast.deviation;
             let repeated = from_repeats(&record.force, channel)
                 .or_else(|| from_repeats(&record.displacement, channel));
             // What drifts or jumps from cycle to cycle is no noise; what is sharp in every cycle neither.
