@@ -3,15 +3,10 @@
 use crate::causes::{Cause, find};
 use crate::identify::{Fit, Prediction, Problem, refit};
 use crate::joint::effect::Acting;
+use crate::record::mains;
 
-/// Frequencies tried about a nominal one, per cycle of the longest record.
-const PER_CYCLE: f64 = 4.0;
-
-/// Share by which mains leave their nominal frequency.
-const AWAY: f64 = 0.002;
-
-/// Most frequencies tried.
-const MOST: usize = 400;
+/// Frequencies tried to either side of a nominal one at most.
+const MOST: usize = 200;
 
 /// Moves the clocks of all records but the first by less than a period of the mains, so that a hum
 /// in what the baseline leaves has the same phase over time in all of them.
@@ -36,13 +31,8 @@ pub fn align(problem: &mut Problem, first: &Fit) {
             .collect()
     };
     let strength = |f: f64| lines(f).iter().map(|l| l.0).sum::<f64>();
-    let best = [50.0, 60.0]
+    let best = mains::frequencies(longest, MOST)
         .into_iter()
-        .flat_map(|nominal| {
-            let half = ((AWAY * nominal * PER_CYCLE * longest).ceil() as usize).min(MOST / 2);
-            let step = AWAY * nominal / half.max(1) as f64;
-            (0..=2 * half).map(move |i| nominal + step * (i as f64 - half as f64))
-        })
         .filter(|f| (frequency.lower..frequency.upper).contains(f))
         .map(|f| (strength(f), f))
         .max_by(|a, b| a.0.total_cmp(&b.0));
@@ -154,17 +144,9 @@ fn in_scatters(left: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Fall of the sum of squares by a sine of the frequency, and its phase at time zero.
 fn line(time: &[f64], residual: &[f64], frequency: f64) -> (f64, f64) {
-    let (mut sine, mut cosine) = (0.0, 0.0);
-    for (t, r) in time.iter().zip(residual) {
-        let (s, c) = (std::f64::consts::TAU * frequency * t).sin_cos();
-        sine += r * s;
-        cosine += r * c;
-    }
-    let count = time.len().max(1) as f64;
-    (
-        2.0 * (sine * sine + cosine * cosine) / count,
-        cosine.atan2(sine),
-    )
+    let (sine, cosine) = mains::line(time, residual, frequency);
+    let half = 0.5 * time.len() as f64;
+    (half * (sine * sine + cosine * cosine), cosine.atan2(sine))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod jumps;
+pub mod mains;
 pub mod noise;
 pub mod outliers;
 pub mod peaks;

@@ -1,7 +1,6 @@
 //! The noise of a channel, read off what a model leaves or off the fastest variations.
 
 use super::spectrum::{FastNoise, fast_noise};
-use std::f64::consts::TAU;
 
 /// Noise of one channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,67 +87,14 @@ pub fn from_differences(residual: &[f64]) -> Noise {
     of_thirds(&thirds(residual), residual.len())
 }
 
-/// The same of the channel of a record without what hums at the frequency of the mains, or three times that, in it:
-/// [`LONGEST`] samples at most.
-pub fn beneath_mains(time: &[f64], channel: &[f64]) -> Noise {
-    let count = channel.len().min(LONGEST);
-    let mut left = thirds(&channel[..count]);
-    let time = &time[..left.len()];
-    let long = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
-    let steps = (AWAY * 60.0 * 4.0 * long).ceil().clamp(1.0, MOST_STEPS);
-    let strongest = |about: &[f64], away: f64, steps: f64| {
-        let each = (0..=2 * steps as usize).map(|step| 1.0 + away * (step as f64 / steps - 1.0));
-        let tried = each.flat_map(|share| about.iter().map(move |nominal| share * nominal));
-        let strength = |f: f64| {
-            let (sine, cosine) = line(time, &left, f);
-            sine.hypot(cosine)
-        };
-        let all = tried.map(|f| (strength(f), f));
-        all.max_by(|a, b| a.0.total_cmp(&b.0))
-            .map_or(0.0, |(_, f)| f)
-    };
-    let coarse = strongest(&[50.0, 60.0], AWAY, steps);
-    let mains = strongest(&[coarse], AWAY / steps, FINER);
-    for frequency in [mains, 3.0 * mains] {
-        let (sine, cosine) = line(time, &left, frequency);
-        for (t, d) in time.iter().zip(&mut left) {
-            let (s, c) = (TAU * frequency * t).sin_cos();
-            *d -= sine * s + cosine * c;
-        }
-    }
-    of_thirds(&left, count)
-}
-
-/// Samples that a hum is looked for in.
-const LONGEST: usize = 4096;
-
-/// Share by which mains leave their nominal frequency.
-const AWAY: f64 = 0.002;
-
-/// Most steps to either side in which it is looked for.
-const MOST_STEPS: f64 = 50.0;
-
-/// Parts of a step in which it is then looked for.
-const FINER: f64 = 8.0;
-
-/// Sine and cosine of a frequency in values over time.
-fn line(time: &[f64], values: &[f64], frequency: f64) -> (f64, f64) {
-    let (mut sine, mut cosine) = (0.0, 0.0);
-    for (t, value) in time.iter().zip(values) {
-        let (s, c) = (TAU * frequency * t).sin_cos();
-        sine += value * s;
-        cosine += value * c;
-    }
-    let half = 0.5 * time.len().max(1) as f64;
-    (sine / half, cosine / half)
-}
-
-fn thirds(values: &[f64]) -> Vec<f64> {
+/// Third differences.
+pub(super) fn thirds(values: &[f64]) -> Vec<f64> {
     let of = |w: &[f64]| w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0];
     values.windows(4).map(of).collect()
 }
 
-fn of_thirds(differences: &[f64], samples: usize) -> Noise {
+/// White noise of such differences.
+pub(super) fn of_thirds(differences: &[f64], samples: usize) -> Noise {
     let mut squares: Vec<f64> = differences.iter().map(|d| d * d / 20.0).collect();
     // The median of χ²₁ is 0.4549: kinks at reversals are outliers to it.
     squares.sort_by(f64::total_cmp);
@@ -187,11 +133,11 @@ pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
 
     /// Numbers of even distribution in ±√3, and so of unit variance.
-    fn white(count: usize) -> Vec<f64> {
+    pub fn white(count: usize) -> Vec<f64> {
         let mut state = 3_u64;
         // Knuth's linear congruential generator, its upper bits.
         let mut random = || {
@@ -203,20 +149,6 @@ mod tests {
         (0..count)
             .map(|_| 12.0_f64.sqrt() * (random() - 0.5))
             .collect()
-    }
-
-    #[test]
-    fn a_hum_is_no_noise_beneath_it() {
-        let time: Vec<f64> = (0..4000).map(|i| 0.0025 * f64::from(i)).collect();
-        let noise = white(4000);
-        let hums = |t: &f64| (TAU * 50.03 * t).sin() + 0.3 * (TAU * 150.09 * t + 1.0).cos();
-        let both = time.iter().zip(&noise);
-        let channel: Vec<f64> = both.map(|(t, z)| 9.0 * hums(t) + z).collect();
-        assert!(from_differences(&channel).deviation > 2.0);
-        let found = beneath_mains(&time, &channel).deviation;
-        assert!((found - 1.0).abs() < 0.1, "{found}");
-        let found = beneath_mains(&time, &noise).deviation;
-        assert!((found - 1.0).abs() < 0.1, "{found}");
     }
 
     #[test]
