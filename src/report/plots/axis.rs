@@ -21,6 +21,12 @@ pub(super) struct Axis {
     logarithmic: bool,
 }
 
+/// Decades from which a logarithmic axis has ticks at powers of ten alone.
+const WIDE: f64 = 2.5;
+
+/// Ticks of a logarithmic axis below which it has all that are round.
+const FEWEST: usize = 3;
+
 impl Axis {
     /// An axis over all finite `values` (SI) with about `count` ticks; `None` where there is none.
     pub(super) fn over(
@@ -90,24 +96,25 @@ impl Axis {
         let (lower, upper) = (scale.shown(smallest).log10(), scale.shown(largest).log10());
         let room = MARGIN * (upper - lower);
         let decades = lower.floor() as i32..=upper.ceil() as i32;
-        let marks: &[f64] = if upper - lower < 2.5 {
-            &[1.0, 2.0, 5.0]
-        } else {
-            &[1.0]
-        };
-        let ticks = decades.flat_map(|decade| {
-            marks
-                .iter()
-                .map(move |mark| (mark * 10f64.powi(decade)).log10())
-        });
+        let wide = upper - lower >= WIDE;
         let (lower, upper) = (lower - room, upper + room);
+        let within = |marks: &'static [f64]| -> Vec<f64> {
+            let each = decades.clone().flat_map(|decade| {
+                let of = move |mark: &f64| (mark * 10f64.powi(decade)).log10();
+                marks.iter().map(of)
+            });
+            each.filter(|tick| (lower..=upper).contains(tick)).collect()
+        };
+        let sparse = within(if wide { &[1.0] } else { &[1.0, 2.0, 5.0] });
+        let ticks = match sparse.len() < FEWEST {
+            true => within(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
+            false => sparse,
+        };
         Axis {
             title: titled(name, &scale.unit),
             lower,
             upper,
-            ticks: ticks
-                .filter(|tick| (lower..=upper).contains(tick))
-                .collect(),
+            ticks,
             scale,
             decimals: 0,
             logarithmic: true,
@@ -204,6 +211,16 @@ mod tests {
         let labels: Vec<String> = axis.ticks.iter().map(|tick| axis.label(*tick)).collect();
         assert_eq!(labels, ["0.01", "0.1", "1"]);
         assert!((axis.place(1e-3) - 0.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn narrow_logarithmic_ranges_have_ticks_enough() {
+        let values = [10.6, 39.8];
+        let Some(axis) = Axis::logarithmic("f", "N", values.into_iter(), 5) else {
+            unreachable!("two finite values")
+        };
+        let labels: Vec<String> = axis.ticks.iter().map(|tick| axis.label(*tick)).collect();
+        assert_eq!(labels, ["20", "30", "40"]);
     }
 
     #[test]
