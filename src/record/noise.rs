@@ -136,19 +136,23 @@ pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
 pub mod tests {
     use super::*;
 
-    /// Numbers of even distribution in ±√3, and so of unit variance.
-    pub fn white(count: usize) -> Vec<f64> {
-        let mut state = 3_u64;
+    /// Numbers drawn evenly between 0 and 1.
+    pub fn drawn(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
         // Knuth's linear congruential generator, its upper bits.
-        let mut random = || {
+        move || {
             state = state
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..count)
-            .map(|_| 12.0_f64.sqrt() * (random() - 0.5))
-            .collect()
+        }
+    }
+
+    /// Numbers of even distribution in ±√3, and so of unit variance.
+    pub fn white(count: usize) -> Vec<f64> {
+        let mut random = drawn(3);
+        let scaled = (0..count).map(|_| 12.0_f64.sqrt() * (random() - 0.5));
+        scaled.collect()
     }
 
     #[test]

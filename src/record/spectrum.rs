@@ -108,14 +108,7 @@ mod tests {
 
     /// Coloured noise of unit variance, nearly normal, beneath a slow wave five times as large.
     fn record(correlation: f64, wave: f64) -> Vec<f64> {
-        let mut state = 7_u64;
-        // Knuth's linear congruential generator, its upper bits.
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut random = crate::record::noise::tests::drawn(7);
         let mut last = 0.0;
         (0..6000)
             .map(|i| {
