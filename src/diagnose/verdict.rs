@@ -16,7 +16,7 @@ pub const NEGLIGIBLE: f64 = 0.02;
 const LEFT: f64 = 0.04;
 
 /// What a model leaves over the noise's variance beyond which it is no noise, however random: three times what
-/// repeated cycles show of it in rms.
+/// repeated cycles or its fast part show of it in rms.
 const THRICE: f64 = 9.0;
 
 /// Probability of something that is not in the catalogue above which no name explains a record: as
@@ -43,8 +43,9 @@ pub fn verdict(
     // hide that the bins differ.
     let over = most.is_some_and(|most| chi > most) && (after.is_seen() || chi > THRICE);
     match (named, left || over) {
-        (None, false) => Verdict::Clean,
-        (None, true) => Verdict::Unexplained,
+        // Noise that is told by its fast part alone may still be far less than what is left.
+        (None, false) if chi <= THRICE => Verdict::Clean,
+        (None, _) => Verdict::Unexplained,
         (Some(_), _) if unlisted > UNSURE => Verdict::PartlyExplained,
         (Some(true), false) => Verdict::Explained,
         (Some(true), true) if after.share <= LEFT * before.share && !over => Verdict::Explained,
@@ -70,7 +71,8 @@ mod tests {
         assert_eq!(said(Some(1.4), 15.0), Verdict::Unexplained);
         // Noise that grows with the load is known too small.
         assert_eq!(said(Some(1.4), 3.0), Verdict::Clean);
-        // Where nothing repeats the noise is what is left.
-        assert_eq!(said(None, 15.0), Verdict::Clean);
+        // Where nothing repeats the noise is what is left, or its fast part, which may be far less.
+        assert_eq!(said(None, 8.0), Verdict::Clean);
+        assert_eq!(said(None, 15.0), Verdict::Unexplained);
     }
 }
