@@ -79,6 +79,17 @@ fn rounded(x: f64, r: f64) -> (f64, f64) {
     (0.5 * (x + root), 0.5 * (1.0 + x / root))
 }
 
+/// `size` times what x is beyond `edge` to one side, rounded over `r`, less what that is at rest.
+fn one_sided(size: f64, side: f64, edge: f64, r: f64, x: f64) -> Response {
+    let (beyond, slope) = rounded(side * (x - edge), r);
+    let (at_rest, _) = rounded(-side * edge, r);
+    Response {
+        value: side * size * (beyond - at_rest),
+        slope: size * slope,
+        damping: 0.0,
+    }
+}
+
 impl Effect for JointOpening {
     fn name(&self) -> &'static str {
         "joint_opening"
@@ -97,25 +108,18 @@ impl Effect for JointOpening {
         [Some(self.place()), also]
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
-        let side = values[3].signum();
-        let (met, slope) = rounded(side * displacement, values[4]);
-        let (at_rest, _) = rounded(0.0, values[4]);
-        Response {
-            value: values[3] * (met - at_rest),
-            slope: values[3].abs() * slope,
-            damping: 0.0,
-        }
+        one_sided(
+            values[3].abs(),
+            values[3].signum(),
+            0.0,
+            values[4],
+            displacement,
+        )
     }
     fn spring(&self, values: &[f64], force: f64) -> Response {
         let [compliance, opens, rounding] = [values[0], values[1], values[2]];
         let side = if opens >= 0.0 { 1.0 } else { -1.0 };
-        let (beyond, slope) = rounded(side * (force - opens), rounding);
-        let (at_rest, _) = rounded(-side * opens, rounding);
-        Response {
-            value: side * compliance * (beyond - at_rest),
-            slope: compliance * slope,
-            damping: 0.0,
-        }
+        one_sided(compliance, side, opens, rounding, force)
     }
 }
 

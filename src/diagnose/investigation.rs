@@ -2,7 +2,7 @@
 //! worn one.
 
 use super::growing::{FURTHER_SHARE, leaves_structure};
-use super::prepare::{Bench, prepare};
+use super::prepare::{Bench, form, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, dispersion, trials_of};
 use crate::causes::Cause;
@@ -31,7 +31,8 @@ pub fn investigated(
 ) -> Investigation {
     progress("noise and baseline");
     let virgin = vec![Beginning::default(); records.len()];
-    let bench = prepare(records, &virgin);
+    let form = form(records);
+    let bench = prepare(form, records, &virgin);
     let first = baseline(&bench.train);
     let others = beginnings(&bench.train, &first);
     // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
@@ -72,7 +73,7 @@ pub fn investigated(
     };
     let mut all = vec![searched(bench, first, timed, progress)];
     for other in others {
-        let bench = prepare(records, &other);
+        let bench = prepare(form, records, &other);
         let so_far = &all[leading(&all)];
         if misled(so_far) || so_far.may_be_beaten_by(&bench) {
             progress(

@@ -101,9 +101,8 @@ pub fn compliance_ratio(record: &Record) -> f64 {
     displacement / force / stiff
 }
 
-/// Prepares records with their beginnings: form, first unweighted baseline, noise, weights, marks.
-pub fn prepare(records: &[Record], beginnings: &[Beginning]) -> Bench {
-    let form = form(records);
+/// Prepares records with their beginnings in a form: first unweighted baseline, noise, weights, marks.
+pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Bench {
     let mut problem = Problem::begun(form, records, beginnings);
     let mut struck: Vec<Vec<bool>> = records.iter().map(|r| vec![false; r.len()]).collect();
     strike_channels(&mut problem, &mut struck);

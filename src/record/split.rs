@@ -58,19 +58,23 @@ fn piece(drive: &[f64], sixteenths: &[(usize, usize)]) -> Option<(usize, usize)>
 
 /// True where no sample outside a piece comes near its largest load.
 fn is_largest_alone(drive: &[f64], (from, to): (usize, usize)) -> bool {
-    let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let within = most(&drive[from..to]);
-    most(&drive[..from]).max(most(&drive[to..])) < AS_LARGE * within
+    let outside = most(&drive[..from]).max(most(&drive[to..]));
+    outside < AS_LARGE * most(&drive[from..to])
+}
+
+/// Largest magnitude of a part of a drive.
+fn most(part: &[f64]) -> f64 {
+    part.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
 }
 
 /// Which cycles reach the largest load, up or down.
 fn largest(drive: &[f64], found: &[Cycle]) -> Vec<bool> {
-    let reach = |c: &Cycle| {
-        let part = drive[c.start..c.end].iter();
-        part.fold(0.0_f64, |most, x| most.max(x.abs()))
-    };
-    let most = found.iter().map(reach).fold(0.0, f64::max);
-    found.iter().map(|c| reach(c) >= AS_LARGE * most).collect()
+    let reach = |c: &Cycle| most(&drive[c.start..c.end]);
+    let highest = found.iter().map(reach).fold(0.0, f64::max);
+    found
+        .iter()
+        .map(|c| reach(c) >= AS_LARGE * highest)
+        .collect()
 }
 
 /// The level nearest the middle whose samples fit the budget and that is not the only one of the largest load.
