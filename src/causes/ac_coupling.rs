@@ -112,11 +112,7 @@ impl Cause for AcCoupling {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let corner = 0.002 / scale.period;
-        let mut starts = vec![vec![corner, 0.0, 0.0]];
-        if scale.judges_force {
-            starts.push(vec![0.0, 0.0, corner]);
-        }
-        starts
+        vec![vec![corner, 0.0, 0.0], vec![0.0, 0.0, corner]]
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         vec![values[0], 0.5, values[2]]

@@ -119,6 +119,9 @@ impl Effect for FixtureInertia {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    fn follows_motion(&self) -> bool {
+        true
+    }
     fn inertia(&self, values: &[f64]) -> Option<f64> {
         (values[1] == 0.0).then_some(values[0])
     }

@@ -152,10 +152,8 @@ impl Cause for SensorNonlinearity {
             };
             let [a, b] = bent(scale.displacement);
             starts.push(vec![a, b, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-            if scale.judges_force {
-                let [a, b] = bent(scale.force);
-                starts.push(vec![0.0, 0.0, 0.0, 0.0, a, b, 0.0, 0.0]);
-            }
+            let [a, b] = bent(scale.force);
+            starts.push(vec![0.0, 0.0, 0.0, 0.0, a, b, 0.0, 0.0]);
         }
         starts
     }

@@ -188,9 +188,7 @@ impl Cause for SensorSaturation {
             let knee = |size: f64| [0.2 / size, level[0] * size, level[1] * size, 2.0];
             let none = [0.0, 0.0, 0.0, 2.0];
             starts.push([knee(scale.displacement), none].concat());
-            if scale.judges_force {
-                starts.push([none, knee(scale.force)].concat());
-            }
+            starts.push([none, knee(scale.force)].concat());
         }
         starts
     }

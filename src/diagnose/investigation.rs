@@ -6,10 +6,13 @@ use super::prepare::{Bench, form, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, dispersion, trials_of};
 use crate::causes::Cause;
-use crate::identify::beginning::{Beginning, at_zero, beginnings, sharpened};
-use crate::identify::{Fit, Problem, baseline, refit};
+use crate::identify::beginning::{Beginning, at_zero, beginnings, past, sharpened};
+use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
 use crate::record::Record;
+
+/// Share of what a cause brought that other turns before the records may leave.
+const HALF: f64 = 0.5;
 
 /// Times that turns and joint are fitted to each other in turn.
 const ROUNDS: usize = 3;
@@ -22,19 +25,40 @@ pub struct Investigation {
     pub found: Found,
 }
 
-/// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
-/// shows first, in records that begin so; the likelier of both.
+/// Said where the records are searched with another beginning.
+const ONCE_MORE: &str =
+    "once more: a record may begin in the middle of a test, or its zero may be off";
+
+/// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
 pub fn investigated(
     records: &[Record],
     timed: bool,
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
+    let anew = made_anew(records, timed, progress);
+    if !anew.may_wear_on() {
+        return anew;
+    }
+    progress("once more: wear may go on from record to record");
+    let mut bench = anew.bench.clone();
+    bench.wear_on();
+    let on = searched(bench, anew.found.baseline.clone(), timed, progress).sharpened();
+    let scale = anew.dispersion().min(on.dispersion());
+    match on.unlikeliness(scale) < anew.unlikeliness(scale) {
+        true => on,
+        false => anew,
+    }
+}
+
+/// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
+/// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
+fn made_anew(records: &[Record], timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
     progress("noise and baseline");
     let virgin = vec![Beginning::default(); records.len()];
     let form = form(records);
     let bench = prepare(form, records, &virgin);
     let first = baseline(&bench.train);
-    let others = beginnings(&bench.train, &first);
+    let mut others = beginnings(&bench.train, &first);
     // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
     let train = &bench.train;
     let at_zero: Vec<bool> = (0..records.len())
@@ -49,21 +73,20 @@ pub fn investigated(
         }
     };
     // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
-    let misled = |i: &Investigation| {
-        let Found { best, .. } = &i.found;
-        let doubtful = !best.effects.is_empty() || leaves_structure(&i.bench.train, best);
-        against_rule(i) && doubtful
-    };
-    let of = |i: &Investigation| dispersion(&i.bench.train, &i.found.best);
+    let misled = |i: &Investigation| against_rule(i) && !i.is_plain();
     let leading = |all: &[Investigation]| {
-        let scale = all.iter().map(of).fold(f64::INFINITY, f64::min);
+        let scale = all
+            .iter()
+            .map(Investigation::dispersion)
+            .fold(f64::INFINITY, f64::min);
         let unlikely = |i: &Investigation| {
-            // Where a past is the rule, a virgin joint and a cause that does its work are two oddities.
-            let called_for = i.is_virgin() && !i.found.best.effects.is_empty();
-            let oddities = match (against_rule(i), called_for) {
+            // Where a past is the rule, a virgin joint and a cause that does its work are two oddities; so is a past
+            // where none is the rule, which may do the work of a cause.
+            let plainly_virgin = i.is_virgin() && i.found.best.effects.is_empty();
+            let oddities = match (against_rule(i), plainly_virgin) {
                 (false, _) => 0.0,
-                (true, false) => 1.0,
-                (true, true) => 2.0,
+                (true, true) => 1.0,
+                (true, false) => 2.0,
             };
             i.unlikeliness(scale) + oddities * ALARM
         };
@@ -71,32 +94,60 @@ pub fn investigated(
         let least = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
         least.map_or(0, |(i, _)| i)
     };
-    let mut all = vec![searched(bench, first, timed, progress)];
+    // Where a past is the rule and leaves noise alone, nobody asks what a virgin joint would need.
+    let past_is_rule =
+        at_zero.contains(&false) && others.first().is_some_and(|o| has_past(o, &at_zero));
+    let mut all = Vec::new();
+    if past_is_rule {
+        let begun = prepare(form, records, &others.remove(0));
+        let one = begun_and_searched(begun, timed, progress);
+        if one.is_plain() && !one.bench.noise_may_be_structure() {
+            return one;
+        }
+        progress(ONCE_MORE);
+        let other = one.other_past();
+        all.push(one);
+        if let Some(other) = other {
+            let bench = prepare(form, records, &other);
+            all.push(begun_and_searched(bench, timed, progress));
+        }
+    }
+    all.push(searched(bench, first, timed, progress));
     for other in others {
         let bench = prepare(form, records, &other);
         let so_far = &all[leading(&all)];
         if misled(so_far) || so_far.may_be_beaten_by(&bench) {
-            progress(
-                "once more: a record may begin in the middle of a test, or its zero may be off",
-            );
-            let first = baseline(&bench.train);
-            all.push(searched(bench, first, timed, progress).sharpened());
+            progress(ONCE_MORE);
+            all.push(begun_and_searched(bench, timed, progress));
         }
     }
     let likeliest = leading(&all);
-    let anew = all.swap_remove(likeliest);
-    if !anew.may_wear_on() {
-        return anew;
-    }
-    progress("once more: wear may go on from record to record");
-    let mut bench = anew.bench.clone();
-    bench.wear_on();
-    let on = searched(bench, anew.found.baseline.clone(), timed, progress).sharpened();
-    let scale = of(&anew).min(of(&on));
-    match on.unlikeliness(scale) < anew.unlikeliness(scale) {
-        true => on,
-        false => anew,
-    }
+    all.swap_remove(likeliest)
+}
+
+/// True where every record whose first reading is not zero has turns before it.
+fn has_past(beginnings: &[Beginning], at_zero: &[bool]) -> bool {
+    let mut both = beginnings.iter().zip(at_zero);
+    both.all(|(begins, at_zero)| *at_zero || !begins.turned.is_empty())
+}
+
+/// What is found in records that do not begin with a virgin joint.
+fn begun_and_searched(bench: Bench, timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
+    let first = baseline(&bench.train);
+    searched(bench, first, timed, progress).sharpened()
+}
+
+/// What a model leaves of record `k` with a beginning.
+fn left(train: &Problem, fit: &Fit, (k, beginning): (usize, &Beginning)) -> f64 {
+    // A worn joint is worn by what came before.
+    let before = if train.wears_on { 0 } else { k };
+    let mut one = Problem {
+        operators: train.operators.clone(),
+        records: train.records[before..=k].to_vec(),
+        ..*train
+    };
+    one.records[k - before].beginning.clone_from(beginning);
+    one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
 }
 
 /// What is found from the baseline of the records as they are weighed.
@@ -122,6 +173,17 @@ fn searched(
 impl Investigation {
     fn beginnings(&self) -> impl Iterator<Item = &Beginning> {
         self.bench.train.records.iter().map(|r| &r.beginning)
+    }
+
+    /// True where the baseline leaves noise alone.
+    fn is_plain(&self) -> bool {
+        let Found { best, .. } = &self.found;
+        best.effects.is_empty() && !leaves_structure(&self.bench.train, best)
+    }
+
+    /// χ² per degree of freedom of what was found, at least one.
+    fn dispersion(&self) -> f64 {
+        dispersion(&self.bench.train, &self.found.best)
     }
 
     fn is_virgin(&self) -> bool {
@@ -215,26 +277,44 @@ impl Investigation {
         if begun.turned.is_empty() {
             return;
         }
-        let left = |beginning: &Beginning| {
-            // A worn joint is worn by what came before.
-            let before = if train.wears_on { 0 } else { k };
-            let mut one = Problem {
-                operators: train.operators.clone(),
-                records: train.records[before..=k].to_vec(),
-                ..*train
-            };
-            one.records[k - before].beginning.clone_from(beginning);
-            one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
-        };
-        let (_, sharp) = sharpened(begun, left);
+        let (_, sharp) = sharpened(begun, |beginning| left(train, fit, (k, beginning)));
         for problem in [&mut self.bench.train, &mut self.bench.whole] {
             problem.records[k].beginning.clone_from(&sharp);
         }
     }
 
+    /// Beginnings that suit a set with one cause less, where they do most of what it brought: turns before the
+    /// records were found before any cause was, and one cause of several may do what they are wrong by.
+    fn other_past(&self) -> Option<Vec<Beginning>> {
+        let best = &self.found.best;
+        if best.effects.len() < 2 {
+            return None;
+        }
+        let fewer = (0..best.effects.len()).filter_map(|drop| {
+            let less = without(&self.bench.train, best, drop);
+            let mut train = self.bench.train.clone();
+            let mut fit = refit(&train, &less, less.effects.clone());
+            let brought = fit.misfit - best.misfit;
+            for _ in 0..ROUNDS {
+                for k in 0..train.records.len() {
+                    if train.records[k].beginning.turned.is_empty() {
+                        continue;
+                    }
+                    let (input, _) = train.channels(k);
+                    let (_, found) = past(input, |begins| left(&train, &fit, (k, begins)))?;
+                    train.records[k].beginning = found;
+                }
+                fit = refit(&train, &fit, fit.effects.clone());
+            }
+            (fit.misfit - best.misfit < HALF * brought).then_some((fit.misfit, train))
+        });
+        let (_, train) = fewer.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(train.records.into_iter().map(|r| r.beginning).collect())
+    }
+
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
     /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
-    /// whether wear goes on; every cause but one is as unlikely as what is against the rule.
+    /// whether wear goes on; every cause is as unlikely as what is against the rule.
     fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
@@ -242,10 +322,9 @@ impl Investigation {
         let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
         let causes = &self.found.best.effects;
         let of_causes: usize = causes.iter().map(Acting::free).sum();
-        let further = causes.len().saturating_sub(1) as f64;
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
         let values = (of_causes + of_beginnings + usize::from(train.wears_on)) as f64;
         let chosen = values * (train.rows().max(3) as f64).ln();
-        innovations + misfit / dispersion + chosen + further * ALARM
+        innovations + misfit / dispersion + chosen + causes.len() as f64 * ALARM
     }
 }

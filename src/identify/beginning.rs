@@ -5,10 +5,10 @@
 //! virgin one until its own load has been everywhere before; taken for virgin, it would look as if friction
 //! changed over the first cycles.
 
-use super::fit::{Fit, baseline};
+use super::fit::{Fit, baseline, least_misfit};
 use super::operators::Form;
 use super::problem::{Prepared, Problem};
-use crate::record::cycles::{span, turning_points};
+use crate::record::cycles::{cycles, span, turning_points};
 use rayon::prelude::*;
 
 /// How a record begins, in units of the driving channel.
@@ -121,27 +121,50 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     if !doubtful && !offset {
         return Beginning::default();
     }
-    let fitted = |beginning: &Beginning| {
+    let left_early = |beginning: &Beginning| {
         let one = alone(form, record, beginning);
-        let fit = baseline(&one);
-        let (early, late) = left(&fit.predict(&one)[0].judged);
-        (early, early + late)
+        left(&baseline(&one).predict(&one)[0].judged).0
     };
     let virgin = Beginning::default();
-    let (virgin_early, virgin_all) = fitted(&virgin);
-    let altogether = |beginning: &Beginning| fitted(beginning).1;
-    let wins = |all: f64, before: f64| before - all > FALL * all / judged.len() as f64;
+    let few = thinned(form, record, forgotten);
+    let altogether = |beginning: &Beginning| least_misfit(&alone(form, &few, beginning));
+    let (virgin_early, virgin_all) = rayon::join(|| left_early(&virgin), || altogether(&virgin));
+    let best = past(input, altogether);
+    let Some((all, best)) = best.filter(|(all, _)| *all < virgin_all) else {
+        return virgin;
+    };
+    let nearer = offset || left_early(&best) < HALF * virgin_early;
+    match nearer && wins(all, virgin_all, judged.len()) {
+        true => best,
+        false => virgin,
+    }
+}
+
+/// True where what is left falls by enough for another beginning.
+fn wins(all: f64, before: f64, samples: usize) -> bool {
+    before - all > FALL * all / samples as f64
+}
+
+/// The turns before a record that leave least, by what `left` says of a beginning, and how much that is; `None` of a
+/// record whose load turns less than twice.
+pub fn past(input: &[f64], left: impl Fn(&Beginning) -> f64 + Sync) -> Option<(f64, Beginning)> {
+    if early(input) == 0 {
+        return None;
+    }
     let (low, high) = low_high(input.iter().copied());
     let deepened = |(mut all, mut best): (f64, Beginning)| {
         while best.turned.len() < DEEPEST {
             let of = |turn: f64| {
                 let mut older = best.clone();
                 older.turned.insert(0, turn);
-                sharpened(older, altogether)
+                sharpened(older, &left)
             };
             let (before_low, before_high) = rayon::join(|| of(low), || of(high));
             let both = [before_low, before_high];
-            match both.into_iter().find(|older| wins(older.0, all)) {
+            match both
+                .into_iter()
+                .find(|older| wins(older.0, all, input.len()))
+            {
                 Some(older) => (all, best) = older,
                 None => break,
             }
@@ -150,21 +173,13 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     };
     // Of each range by itself: what is nearest with two turns may stay behind with older ones.
     let nearest = |tried: &Vec<Beginning>| {
-        let all = tried.par_iter().map(|b| (altogether(b), b));
+        let all = tried.par_iter().map(|b| (left(b), b));
         let (_, best) = all.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        Some(deepened(sharpened(best.clone(), altogether)))
+        Some(deepened(sharpened(best.clone(), &left)))
     };
     let tried = histories(input);
     let ranges = tried.par_iter().filter_map(nearest);
-    let best = ranges.min_by(|(a, _), (b, _)| a.total_cmp(b));
-    let Some((all, best)) = best.filter(|(all, _)| *all < virgin_all) else {
-        return virgin;
-    };
-    let nearer = offset || fitted(&best).0 < HALF * virgin_early;
-    match nearer && wins(all, virgin_all) {
-        true => best,
-        false => virgin,
-    }
+    ranges.min_by(|(a, _), (b, _)| a.total_cmp(b))
 }
 
 /// Most turns that a record is asked for.
@@ -224,6 +239,20 @@ fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
+}
+
+/// Samples of a cycle behind the beginning that a dictionary needs.
+const PER_CYCLE: usize = 40;
+
+/// The record with every sample of its beginning and fewer behind, which tell the joint but not where it was before.
+fn thinned(form: Form, record: &Prepared, forgotten: usize) -> Prepared {
+    let (input, judged) = record.channels(form);
+    let cycles = cycles(input);
+    let shortest = cycles.iter().map(|cycle| cycle.len()).min().unwrap_or(1);
+    let every = (shortest / PER_CYCLE).max(1);
+    let mut few = record.clone();
+    few.thin(form, (forgotten, every, judged.len()));
+    few
 }
 
 /// One record with a beginning, on a grid for its own range.

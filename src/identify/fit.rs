@@ -89,6 +89,21 @@ pub fn baseline(problem: &Problem) -> Fit {
     refine(problem, zero, Vec::new(), once)
 }
 
+/// Misfit of the [`baseline`], by its normal equations alone: no march predicts what it leaves.
+pub(super) fn least_misfit(problem: &Problem) -> f64 {
+    let nothing = vec![0.0; problem.operators.columns()];
+    let at: Vec<Prediction> = problem.records.iter().map(Prediction::of_nothing).collect();
+    let normal = normal(problem, &nothing, &[], &at, &[]);
+    let solution = normal.solve(&bounded(problem, &normal));
+    normal.misfit(&solution)
+}
+
+/// Which unknowns may not be negative: the dictionary's.
+pub(super) fn bounded(problem: &Problem, normal: &Normal) -> Vec<bool> {
+    let columns = problem.operators.columns();
+    (0..normal.size).map(|i| i < columns).collect()
+}
+
 /// Refits everything from the given start.
 pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
     refit_below(problem, start, effects, f64::INFINITY)
@@ -227,8 +242,7 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
         );
         let records = problem.records.len();
         let first = columns + records;
-        let mut bounded = vec![true; normal.size];
-        bounded[columns..].iter_mut().for_each(|b| *b = false);
+        let bounded = bounded(problem, &normal);
         let solution = normal.solve(&bounded);
         if round > 0 && now.misfit - normal.misfit(&solution) < SETTLED * now.misfit {
             break;
@@ -319,9 +333,7 @@ pub(super) fn projected(
 ) -> Vec<f64> {
     let columns = problem.operators.columns();
     let normal = normal(problem, coefficients, effects, at, &[]);
-    let mut bounded = vec![true; normal.size];
-    bounded[columns..].iter_mut().for_each(|b| *b = false);
-    let mut solution = normal.solve(&bounded);
+    let mut solution = normal.solve(&bounded(problem, &normal));
     solution.truncate(columns);
     solution
 }

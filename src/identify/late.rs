@@ -1,6 +1,5 @@
 //! A displacement that comes late, read ahead: its corners come with it.
 
-use super::problem::Prepared;
 use crate::joint::course::{Corner, Course};
 use crate::joint::effect::{Acting, Place};
 use crate::joint::passed::Passed;
@@ -21,9 +20,12 @@ pub(super) fn lateness(effects: &[Acting]) -> Option<f64> {
 ///
 /// A repetition that takes off what the delay adds does not settle at a corner, whose fast parts are turned
 /// by more than a sixth of their period.
-pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec<f64>, Between) {
-    let time = &record.time;
-    let corners = corners(&record.time, measured, &record.between);
+pub(super) fn read_ahead(
+    time: &[f64],
+    (measured, between): (&[f64], &Between),
+    late: f64,
+) -> (Vec<f64>, Between) {
+    let corners = corners(time, measured, between);
     let course = Course {
         time,
         values: measured,
@@ -52,7 +54,7 @@ pub(super) fn read_ahead(record: &Prepared, measured: &[f64], late: f64) -> (Vec
         }
     };
     let smooth = |peak: &&Peak| corners.iter().all(|c| c.before != peak.before);
-    for peak in record.between.peaks.iter().filter(smooth) {
+    for peak in between.peaks.iter().filter(smooth) {
         put(time[peak.before] - peak.ahead - late, peak.value, false);
     }
     for corner in &corners {
@@ -84,7 +86,7 @@ pub(super) fn corners(time: &[f64], input: &[f64], between: &Between) -> Vec<Cor
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Form, Problem};
+    use crate::identify::{Form, Prepared, Problem};
     use crate::joint::effect::{Effect, Response};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -112,7 +114,8 @@ mod tests {
             // Less than a sample, and several.
             for late in [0.004, 0.0402] {
                 let record = prepared(|t| wave(t - late));
-                let (input, between) = read_ahead(&record, &record.displacement, late);
+                let (input, between) =
+                    read_ahead(&record.time, (&record.displacement, &record.between), late);
                 for (t, u) in record.time.iter().zip(&input).take(590).skip(5) {
                     assert!((u - wave(*t)).abs() < off, "{late}: {u} at {t}");
                 }

@@ -1,7 +1,7 @@
 //! The model linearised at a fit: its normal equations, and how far what a linear combination of the
 //! unknowns owes to the samples scatters.
 
-use super::fit::normal;
+use super::fit::{bounded, normal};
 use super::nonnegative::Normal;
 use super::problem::{Prediction, Problem};
 use super::rows::each_row;
@@ -67,8 +67,7 @@ impl<'a> Linearised<'a> {
 
     /// Which unknowns may not be negative.
     pub(super) fn bounded(&self) -> Vec<bool> {
-        let columns = self.problem.operators.columns();
-        (0..self.normal.size).map(|i| i < columns).collect()
+        bounded(self.problem, &self.normal)
     }
 
     /// Place of the first slope among the unknowns.

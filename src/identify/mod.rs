@@ -7,6 +7,7 @@ mod bonds;
 mod bracket;
 pub mod exported;
 pub mod family;
+pub mod fewer;
 pub mod finer;
 pub mod fit;
 mod inertia;

@@ -1,5 +1,7 @@
 //! The operator dictionary: a fixed grid of thresholds on which any Masing joint is linear.
 
+use crate::joint::effect::Place;
+
 /// Which of the two dual forms a record is judged in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
@@ -7,6 +9,24 @@ pub enum Form {
     Play,
     /// Displacement in, force judged: stop operators with stiffnesses; for deep slip.
     Stop,
+}
+
+impl Form {
+    /// The input's channel, as a place where effects act.
+    pub fn input_place(self) -> Place {
+        match self {
+            Form::Play => Place::ForceChannel,
+            Form::Stop => Place::DisplacementChannel,
+        }
+    }
+
+    /// The judged channel, as such a place.
+    pub fn judged_place(self) -> Place {
+        match self {
+            Form::Play => Place::DisplacementChannel,
+            Form::Stop => Place::ForceChannel,
+        }
+    }
 }
 
 /// Cells of thresholds, in units of the input channel.

@@ -6,7 +6,7 @@ use super::operators::{Form, Operators};
 use super::undone::{corrected, true_input};
 use super::walk::walk;
 use super::weighing::whiten;
-use crate::joint::effect::{Acting, Place, Trajectory};
+use crate::joint::effect::{Acting, Trajectory};
 use crate::record::Record;
 use crate::record::noise::independence;
 use crate::record::peaks::{Between, between};
@@ -118,6 +118,16 @@ pub struct Prediction {
     pub truth: Trajectory,
 }
 
+impl Prediction {
+    /// Of a joint that answers nothing, the judged channel alone.
+    pub(super) fn of_nothing(record: &Prepared) -> Prediction {
+        Prediction {
+            judged: vec![0.0; record.time.len()],
+            ..Prediction::default()
+        }
+    }
+}
+
 impl Problem {
     /// Prepares records of virgin joints.
     pub fn new(form: Form, records: &[Record]) -> Problem {
@@ -197,12 +207,13 @@ impl Problem {
         mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> (Prediction, Wear) {
         let record = &self.records[k];
-        let input_place = match self.operators.form {
-            Form::Play => Place::ForceChannel,
-            Form::Stop => Place::DisplacementChannel,
-        };
+        let input_place = self.operators.form.input_place();
         let corrects = |a: &&Acting| a.acts_at(input_place) && !self.is_marched(a);
-        let correcting: Vec<Acting> = effects.iter().filter(corrects).cloned().collect();
+        let (in_turns, correcting): (Vec<Acting>, Vec<Acting>) = effects
+            .iter()
+            .filter(corrects)
+            .cloned()
+            .partition(|a| a.effect.follows_motion());
         let mut truth = Trajectory {
             time: record.time.clone(),
             force: record.force.clone(),
@@ -215,10 +226,7 @@ impl Problem {
             &correcting,
             &mut truth,
         );
-        let rounds = match (correcting.is_empty(), self.operators.form) {
-            (false, Form::Play) => ROUNDS,
-            _ => 1,
-        };
+        let rounds = if in_turns.is_empty() { 1 } else { ROUNDS };
         let mut worn = Wear::default();
         let as_read = (rounds > 1).then(|| (input.clone(), between.clone()));
         for round in 0..rounds {
@@ -240,7 +248,7 @@ impl Problem {
             });
             worn = march.wear();
             if round + 1 < rounds
-                && let Some(added) = added(&correcting, input_place, &truth)
+                && let Some(added) = added(&in_turns, input_place, &truth)
                 && let Some((read, turned)) = &as_read
             {
                 (input, between) = corrected(read, turned, &added);
@@ -267,14 +275,6 @@ impl Problem {
         each.map(|k| march(k, &Wear::default()).0).collect()
     }
 
-    /// The channel of a form that is judged, as a place where effects act.
-    fn judged_place(&self) -> Place {
-        match self.operators.form {
-            Form::Play => Place::DisplacementChannel,
-            Form::Stop => Place::ForceChannel,
-        }
-    }
-
     /// True for what the measuring chain does that the march takes along where force drives: a mass moves with the
     /// joint, and of a displacement that comes late the force is read as late.
     fn is_marched(&self, acting: &Acting) -> bool {
@@ -289,7 +289,7 @@ impl Problem {
             Form::Play => truth.displacement.clone(),
             Form::Stop => truth.force.clone(),
         };
-        let place = self.judged_place();
+        let place = self.operators.form.judged_place();
         let adds = |a: &&Acting| a.acts_at(place) && !self.is_marched(a);
         let adding: Vec<Acting> = effects.iter().filter(adds).cloned().collect();
         if let Some(added) = added(&adding, place, truth) {
@@ -306,7 +306,7 @@ impl Problem {
         effects: &[Acting],
         changed: &Acting,
     ) -> Vec<Vec<f64>> {
-        let judged = self.judged_place();
+        let judged = self.operators.form.judged_place();
         let same = changed.places().all(|own| own == judged) && !self.is_marched(changed);
         let judged = match same {
             true => at
@@ -384,7 +384,7 @@ const ROUNDS: usize = 3;
 mod tests {
     use super::*;
     use crate::identify::rows::tests::Beside;
-    use crate::joint::effect::{Effect, Situation, SlipLimit};
+    use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
 
     /// A load cell that reads too much.

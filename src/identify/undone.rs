@@ -4,16 +4,16 @@ use super::late::{lateness, read_ahead};
 use super::march::added;
 use super::operators::Form;
 use super::problem::Prepared;
-use crate::joint::effect::{Acting, Place, Trajectory};
+use crate::joint::effect::{Acting, Trajectory};
 use crate::record::peaks::Between;
 
 /// Rounds in which what a sensor added to the displacement is taken off, at most.
 const MOST_ROUNDS: usize = 8;
 
 /// The input that a joint had, as far as it follows from the measured one alone, and what it did between samples;
-/// the true displacement is left in `truth` where that is the input.
+/// it is left in `truth` as well.
 ///
-/// What sensors add to a prescribed displacement is taken off, by the effects that are `correcting` it. Of a
+/// What a sensor adds to its own channel is taken off, by the effects that are `correcting` it. Of a
 /// displacement that comes late under a prescribed force, the joint's answer is that to the force as late.
 pub(super) fn true_input(
     (form, record): (Form, &Prepared),
@@ -22,40 +22,52 @@ pub(super) fn true_input(
     truth: &mut Trajectory,
 ) -> (Vec<f64>, Between) {
     let (measured, _) = record.channels(form);
-    let as_measured = || (measured.to_vec(), record.between.clone());
-    match form {
+    let ahead = |measured: (&[f64], &Between), late: f64| read_ahead(&record.time, measured, late);
+    let as_measured = (measured, &record.between);
+    let undone = |truth: &mut Trajectory| match correcting.is_empty() {
+        true => (measured.to_vec(), record.between.clone()),
+        false => {
+            let added = undone(form, correcting, truth, measured);
+            corrected(measured, &record.between, &added)
+        }
+    };
+    let read = match form {
         Form::Play => {
             let times = effects.iter().filter_map(|a| a.effect.lateness(&a.values));
             let late: f64 = times.sum();
+            let (input, between) = undone(truth);
             match late == 0.0 {
-                true => as_measured(),
-                false => read_ahead(record, measured, -late),
+                true => (input, between),
+                false => ahead((&input, &between), -late),
             }
         }
-        Form::Stop if correcting.is_empty() => as_measured(),
-        Form::Stop => {
-            let read = match lateness(correcting) {
-                Some(late) => read_ahead(record, measured, late),
-                None => {
-                    let added = undone(correcting, truth, measured);
-                    corrected(measured, &record.between, &added)
-                }
-            };
-            truth.displacement.clone_from(&read.0);
-            read
-        }
+        Form::Stop => match lateness(correcting) {
+            Some(late) => ahead(as_measured, late),
+            None => undone(truth),
+        },
+    };
+    driving(form, truth).clone_from(&read.0);
+    read
+}
+
+/// The channel that drives.
+fn driving(form: Form, truth: &mut Trajectory) -> &mut Vec<f64> {
+    match form {
+        Form::Play => &mut truth.force,
+        Form::Stop => &mut truth.displacement,
     }
 }
 
-/// What sensors added to a measured displacement; leaves the true one in `truth`.
+/// What a sensor added to the measured channel that drives; leaves the true one in `truth`.
 ///
 /// What depends on the past alone is undone ever better (a slow loss of an amplifier by the factorial of
 /// the rounds); where the correction no longer falls, it is noise that is raised, and the last is kept.
-fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64]) -> Vec<f64> {
+fn undone(form: Form, effects: &[Acting], truth: &mut Trajectory, measured: &[f64]) -> Vec<f64> {
+    let place = form.input_place();
     let mut last = vec![0.0; measured.len()];
     let mut change = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
-        let Some(next) = added(effects, Place::DisplacementChannel, truth) else {
+        let Some(next) = added(effects, place, truth) else {
             return last;
         };
         let moves = next.iter().zip(&last).map(|(a, b)| (a - b).abs());
@@ -63,7 +75,7 @@ fn undone(effects: &[Acting], truth: &mut Trajectory, measured: &[f64]) -> Vec<f
         if moved >= change || moved == 0.0 {
             return last;
         }
-        let samples = truth.displacement.iter_mut().zip(measured).zip(&next);
+        let samples = driving(form, truth).iter_mut().zip(measured).zip(&next);
         samples.for_each(|((u, m), a)| *u = m - a);
         (last, change) = (next, moved);
     }

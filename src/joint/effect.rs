@@ -208,6 +208,11 @@ pub trait Effect: Send + Sync {
     fn inertia(&self, _values: &[f64]) -> Option<f64> {
         None
     }
+    /// [`Place::ForceChannel`]: true where what it adds follows the motion, which a march has to give first, and not
+    /// the force alone.
+    fn follows_motion(&self) -> bool {
+        false
+    }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
     /// channel at this place, one number per sample (measured = true + added).
     fn channel(&self, _values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {

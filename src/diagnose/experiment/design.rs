@@ -4,7 +4,6 @@
 use rayon::prelude::*;
 
 use super::gram::Gram;
-use super::loading::keep;
 use super::program::{Block, Played, Rig};
 use super::separability::{TOLD, swept};
 use super::shape::{Shape, columns, products, shapes};
@@ -26,8 +25,9 @@ pub struct Question {
     pub rival: String,
 }
 
-/// Blocks of a program at most.
-const BLOCKS: usize = 6;
+/// Blocks at most of a program that tells apart what is ambiguous, and of one that shows what may be hidden.
+pub const BLOCKS: usize = 6;
+pub const BLOCKS_TO_SHOW: usize = 4;
 
 /// Different blocks that a program has at least, where they bring anything: what one kind of block
 /// tells apart hangs on the law of the cause being true there.
@@ -163,14 +163,14 @@ impl<'a> Design<'a> {
         self.standings(&self.before.plus(&products), self.rows + samples)
     }
 
-    /// The program of the first rig that surely settles every question, else of the rig that comes
+    /// The program, of so many blocks at most, of the first rig that surely settles every question, else of the rig that comes
     /// nearest to it. Rigs come in the order of how far they go beyond what was measured: laws are
     /// truest near where they were fitted.
-    pub fn choose(&self, rigs: &[Rig]) -> Option<Chosen> {
+    pub fn choose(&self, rigs: &[Rig], most: usize) -> Option<Chosen> {
         let ratio = |chosen: &Chosen| least(&chosen.after).map_or(0.0, |s| s.ratio());
         let mut best: Option<Chosen> = None;
         for rig in rigs {
-            let Some(chosen) = self.grown(*rig) else {
+            let Some(chosen) = self.grown(*rig, most) else {
                 continue;
             };
             if ratio(&chosen) > best.as_ref().map_or(0.0, ratio) {
@@ -184,12 +184,12 @@ impl<'a> Design<'a> {
     }
 
     /// Adds the block that helps most until every question is settled or the time is used up.
-    fn grown(&self, rig: Rig) -> Option<Chosen> {
+    fn grown(&self, rig: Rig, most: usize) -> Option<Chosen> {
         let before = self.standings(&self.before, self.rows);
         let mut menu = rig.menu();
         let mut blocks: Vec<Block> = Vec::new();
         let mut best = before.clone();
-        while blocks.len() < BLOCKS {
+        while blocks.len() < most {
             // The way back to zero at the end takes a cycle of the last block.
             let lasts = |b: &Block| b.seconds(&rig) + 1.0 / (b.rate * rig.rate);
             let used: f64 = blocks.iter().map(|b| b.seconds(&rig)).sum();
@@ -281,7 +281,7 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
         autoregression,
         ..Prepared::new(&played, problem.operators.form)
     };
-    keep(&mut record, &shown);
+    record.keep(&shown);
     let program = Problem {
         operators: problem.operators.clone(),
         records: vec![record],

@@ -1,6 +1,8 @@
 //! From open questions to the next experiment, or to why there is none.
 
-use super::design::{Chosen, Design, Question, Standing, least, program, refitted};
+use super::design::{
+    BLOCKS, BLOCKS_TO_SHOW, Chosen, Design, Question, Standing, least, program, refitted,
+};
 use super::limits::{Limits, rigs};
 use super::separability::{Map, TOLD};
 use crate::causes::{Cause, Kind, find};
@@ -96,7 +98,8 @@ pub fn next(
     }
     let rows = bench.whole.rows() as f64;
     let design = Design::new(problem, &whole.coefficients, &questions, rows, &bench.scale);
-    let chosen = design.choose(&rigs(bench, limits));
+    let most = if named { BLOCKS } else { BLOCKS_TO_SHOW };
+    let chosen = design.choose(&rigs(bench, limits), most);
     let mut causes: Vec<String> = Vec::new();
     for question in &questions {
         for name in [question.cause.name(), &question.rival] {

@@ -103,10 +103,7 @@ impl<'a> March<'a> {
         }
         // Without such effects an operator beyond the input's range is an elastic one: the
         // dictionary has that already.
-        let input_channel = match operators.form {
-            Form::Play => Place::ForceChannel,
-            Form::Stop => Place::DisplacementChannel,
-        };
+        let input_channel = operators.form.input_place();
         // A spring across the joint that softens leaves the network more than the whole force.
         let across = operators.form == Form::Play && has[index(Place::BesideJoint)];
         let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)] || across;
