@@ -19,16 +19,16 @@ def _one_sample(fine):
     return ends / fine
 
 
-CELLS = 0.4  # share of the rigs driven in displacement whose load cell has the fault
+CELLS = 0.4  # share of the rigs whose load cell has the fault
 
 
 class Instrument(Scaled):
-    """An effect of one channel alone; of the load cell, too, where the force is what answers."""
+    """An effect of one channel alone, of the sensor or of the load cell, whichever drives."""
 
     kind = "measurement"
 
     def draw(self, scene, rng):
-        of_cell = not scene.by_force and rng.random() < CELLS
+        of_cell = rng.random() < CELLS
         self.channel = "force" if of_cell else "displacement"
         self.unit = "N" if of_cell else "m"
         self.acts = frozenset({f"read_{self.channel}"})

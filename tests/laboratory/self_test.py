@@ -181,13 +181,12 @@ class Effects(unittest.TestCase):
                     same = all(np.array_equal(one, other) for one, other in both)
                     self.assertEqual(same, hook not in drawn.acts, f"{name}, {channel}")
 
-    def test_a_load_cell_fails_where_the_force_answers_only(self):
+    def test_a_load_cell_fails_whichever_drives(self):
         for by_force in (True, False):
             scene, rng = small_scene(1, by_force)
             drawn = [CATALOGUE["mains_hum"](scene, rng) for _ in range(40)]
             cells = [hum for hum in drawn if hum.acts == {"read_force"}]
-            self.assertEqual(bool(cells), not by_force)
-            self.assertLess(len(cells), 40)
+            self.assertTrue(0 < len(cells) < 40)
             for hum in cells:
                 hum.strength = 0.5
                 (force,) = Sampled(scene, scene.clean, hum).force
