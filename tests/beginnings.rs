@@ -66,3 +66,48 @@ fn a_joint_from_rest_is_taken_for_what_it_is() {
     let begins = |note: &&String| note.contains("begins");
     assert_eq!(findings.notes.iter().find(begins), None);
 }
+
+/// Forty plays in series under cycles of force that grow, with noise in the displacement, which drifts by `drift`; the
+/// record is kept from sample `from` on.
+fn drifting(from: usize, drift: f64) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let count = 24 * CYCLE;
+    let mut plays = [0.0_f64; 40];
+    let (mut force, mut displacement) = (Vec::new(), Vec::new());
+    for i in 0..count {
+        let passed = i as f64 / count as f64;
+        let bears = (350.0 + 150.0 * passed) * (TAU * i as f64 / CYCLE as f64).sin();
+        for (j, play) in plays.iter_mut().enumerate() {
+            let threshold = 15.0 * (j + 1) as f64;
+            *play = play.clamp(bears - threshold, bears + threshold);
+        }
+        if i >= from {
+            let u = 1e-8 * bears + 1e-9 * plays.iter().sum::<f64>();
+            force.push(bears);
+            displacement.push(u + drift * passed + 2e-8 * noise());
+        }
+    }
+    Record {
+        name: "cut".to_string(),
+        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
+        force,
+        displacement,
+        ..Record::default()
+    }
+}
+
+#[test]
+fn turns_before_a_record_are_found_whatever_drifts() {
+    for (from, drift) in [(3 * CYCLE + 36, 2e-6), (3 * CYCLE + 36, -4e-6)] {
+        let findings = diagnose(&[drifting(from, drift)], |_| ()).unwrap();
+        let named: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+        let place = format!("seed {SEED}, from {from}, drift {drift}");
+        assert_eq!(
+            named,
+            ["displacement_drift"],
+            "{place}: {:?}",
+            findings.notes
+        );
+    }
+}

@@ -142,6 +142,7 @@ fn effects() -> Vec<Acting> {
         first_turns: (0.0, 0.0),
         slowest: 0.02,
         step: STEP,
+        judges_force: true,
         ringing: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);

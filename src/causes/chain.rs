@@ -25,12 +25,12 @@ mod tests {
     use crate::joint::effect::{Acting, Place, Trajectory};
 
     /// Laws of both channels, and at which of their values those of the load cell begin.
-    const BOTH: [(&str, usize); 5] = [
-        ("ac_coupling", 2),
-        ("mains_hum", 5),
-        ("offset_step", 3),
-        ("sensor_nonlinearity", 4),
-        ("sensor_saturation", 4),
+    const BOTH: [(&str, usize, bool); 5] = [
+        ("ac_coupling", 2, true),
+        ("mains_hum", 5, false),
+        ("offset_step", 3, false),
+        ("sensor_nonlinearity", 4, true),
+        ("sensor_saturation", 4, true),
     ];
 
     /// A load cell errs as a sensor that reads as much does; each start acts on one channel, and on the load cell
@@ -50,21 +50,22 @@ mod tests {
             force: wave.collect(),
             ..moved.clone()
         };
-        let scale = Scale {
+        let scale = |judges_force| Scale {
             force: 6.0,
             displacement: 6.0,
             lengths: vec![4.0],
             period: 1.25,
             step: 0.01,
+            judges_force,
             ..Scale::default()
         };
-        for (name, of_cell) in BOTH {
+        for (name, of_cell, under_force) in BOTH {
             let cause = find(name).unwrap();
             let places = |values: Vec<f64>| -> Vec<Place> {
                 let effect = cause.effect();
                 Acting { effect, values }.places().collect()
             };
-            let both = cause.starts(&scale);
+            let both = cause.starts(&scale(true));
             let is_cell = |values: &&Vec<f64>| places(values.to_vec()) == [Place::ForceChannel];
             let (cells, sensors): (Vec<_>, Vec<_>) = both.iter().partition(is_cell);
             assert_eq!(cells.len(), sensors.len(), "{name}");
@@ -84,6 +85,12 @@ mod tests {
                 seen = read.iter().fold(seen, |most, x| most.max(x.abs()));
             }
             assert!(seen > 0.0, "{name}");
+            let starts = if under_force {
+                both.len()
+            } else {
+                sensors.len()
+            };
+            assert_eq!(cause.starts(&scale(false)).len(), starts, "{name}");
         }
     }
 }

@@ -144,8 +144,10 @@ impl Cause for MainsHum {
                 let hum = |size: f64| [size * sine, size * cosine];
                 let [a, b] = hum(small * scale.displacement);
                 starts.push(vec![a, b, frequency, 0.0, 0.0, 0.0, 0.0]);
-                let [a, b] = hum(small * scale.force);
-                starts.push(vec![0.0, 0.0, frequency, 0.0, 0.0, a, b]);
+                if scale.judges_force {
+                    let [a, b] = hum(small * scale.force);
+                    starts.push(vec![0.0, 0.0, frequency, 0.0, 0.0, a, b]);
+                }
             }
         }
         starts

@@ -83,6 +83,9 @@ pub struct Scale {
     pub slowest: f64,
     /// Time between samples \[s\].
     pub step: f64,
+    /// True where the displacement drives, so that what a load cell adds shows as it is; where the force drives, a jump
+    /// or a hum of its reading looks like one of the displacement's.
+    pub judges_force: bool,
     /// Frequencies faster than the load at which what the baseline leaves is loudest \[rad/s\].
     pub ringing: Vec<f64>,
 }

@@ -179,6 +179,7 @@ impl Cause for OffsetStep {
         starts.extend(scale.jumps.iter().map(|&time| [time, sharpness]));
         let of_sensor = starts.iter().map(|[time, p]| vec![height, *time, *p, 0.0]);
         let of_cell = starts.iter().map(|[time, p]| vec![0.0, *time, *p, force]);
+        let of_cell = of_cell.filter(|_| scale.judges_force);
         of_sensor.chain(of_cell).collect()
     }
 }

@@ -74,6 +74,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         period,
         slowest,
         step,
+        judges_force: problem.operators.form == Form::Stop,
         ringing: tones,
     }
 }

@@ -64,6 +64,10 @@ const LEADING: usize = 4;
 /// Those that set the bound of a full one.
 const FIRST: usize = 2;
 
+/// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more.
+const SHAPES: usize = 2;
+const OF_A_MASS: usize = 6;
+
 /// Share of the highest score below which no refit is tried: the score is the fall to first order.
 const WORTH: f64 = 0.03;
 
@@ -108,13 +112,18 @@ pub fn trials_of(
     let worth = (WORTH * highest).max(0.25 * ALARM);
     let (leading, shapes) = match effort {
         Effort::Quick => (LEADING, 1),
-        Effort::Full => (FIRST, 2),
+        Effort::Full => (FIRST, SHAPES),
     };
     let (leading, others) = scored.split_at(leading.min(scored.len()));
     let try_one = |(cause, scores): &Scored, bound: f64| {
         // What a refinement takes away is not known before it is fitted.
         let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
         let foretold = |s: &Score| s.fall > worth.max((current.misfit - bound) / FORETOLD);
+        let rings = |s: &Score| problem.hauls(&s.acting);
+        let shapes = match scores.iter().any(rings) {
+            true if shapes == SHAPES => OF_A_MASS,
+            _ => shapes,
+        };
         let fit = scores
             .iter()
             .take(shapes)

@@ -307,6 +307,23 @@ mod tests {
     }
 
     #[test]
+    fn what_a_baseline_leaves_is_told_by_its_normal_equations_whatever_drifts() {
+        let mut problem = record(0, 0.0);
+        let left = baseline(&problem).misfit;
+        // One value more of 1500 samples.
+        let told = least_misfit(&problem);
+        assert!(told < left && told > 0.99 * left, "{told} {left}");
+        for (i, u) in problem.records[0].displacement.iter_mut().enumerate() {
+            *u += 1e-9 * i as f64;
+        }
+        let beside_drift = least_misfit(&problem);
+        assert!(
+            (beside_drift / told - 1.0).abs() < 1e-3,
+            "{beside_drift} {told}"
+        );
+    }
+
+    #[test]
     fn a_virgin_joint_has_no_other_beginning() {
         assert_eq!(found(&record(0, 0.0)), None);
     }

@@ -51,3 +51,44 @@ fn turns_far(input: &[f64], i: usize, reach: usize) -> bool {
     let around = &input[from..=to];
     around.iter().all(|x| *x <= input[i]) || around.iter().all(|x| *x >= input[i])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Record;
+
+    /// Ten cycles of a hundred samples, with turns at 25 and 75 of each.
+    fn prepared() -> Prepared {
+        let angle = |i: usize| std::f64::consts::TAU * i as f64 / 100.0;
+        let force: Vec<f64> = (0..1000).map(|i| angle(i).sin()).collect();
+        let record = Record {
+            displacement: vec![0.0; force.len()],
+            time: Some((0..1000).map(|i| 0.01 * i as f64).collect()),
+            force,
+            ..Record::default()
+        };
+        Prepared::new(&record, Form::Play)
+    }
+
+    #[test]
+    fn a_thinned_record_keeps_its_beginning_its_turns_and_its_weight() {
+        let mut few = prepared();
+        few.autoregression = 0.5;
+        few.thin(Form::Play, (100, 7, 1000));
+        let tenth = |i: f64| (100.0 * i).round() as usize;
+        let kept: Vec<usize> = few.time.iter().map(|t| tenth(*t)).collect();
+        assert!((0..100).all(|i| kept[i] == i));
+        let turns = (1..10).flat_map(|cycle| [100 * cycle + 25, 100 * cycle + 75]);
+        assert!(
+            turns.into_iter().all(|turn| kept.contains(&turn)),
+            "{kept:?}"
+        );
+        assert!(kept.len() < 100 + 900 / 7 + 40, "{}", kept.len());
+        let passed: f64 = few.steps.iter().sum();
+        assert!((passed - (few.time[kept.len() - 1] - few.time[0])).abs() < 1e-12);
+        // Noise of this correlation weighs a quarter as white noise, and as often as the sample stands for others.
+        let squares = |from: usize| few.weight[from].powi(2);
+        assert!((squares(0) - 0.25).abs() < 1e-12 && (squares(100) - 0.25 * 7.0).abs() < 1e-12);
+        assert_eq!(few.autoregression, 0.0);
+    }
+}

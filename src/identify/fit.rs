@@ -4,7 +4,7 @@
 
 use super::nonnegative::Normal;
 use super::operators::Form;
-use super::problem::{Prediction, Problem};
+use super::problem::{Prediction, Prepared, Problem};
 use super::reached::Reached;
 use super::rows::each_row;
 use super::series;
@@ -89,11 +89,22 @@ pub fn baseline(problem: &Problem) -> Fit {
     refine(problem, zero, Vec::new(), once)
 }
 
-/// Misfit of the [`baseline`], by its normal equations alone: no march predicts what it leaves.
+/// Misfit of the [`baseline`] beside a steady drift of the judged channel, by its normal equations alone: no march
+/// predicts what it leaves.
 pub(super) fn least_misfit(problem: &Problem) -> f64 {
     let nothing = vec![0.0; problem.operators.columns()];
     let at: Vec<Prediction> = problem.records.iter().map(Prediction::of_nothing).collect();
-    let normal = normal(problem, &nothing, &[], &at, &[]);
+    let passed = |record: &Prepared| {
+        let (begins, length) = (record.time[0], record.length());
+        record.time.iter().map(|t| (t - begins) / length).collect()
+    };
+    let drift = Slope {
+        effect: 0,
+        parameter: 0,
+        unit: 1.0,
+        values: problem.records.iter().map(passed).collect(),
+    };
+    let normal = normal(problem, &nothing, &[], &at, &[drift]);
     let solution = normal.solve(&bounded(problem, &normal));
     normal.misfit(&solution)
 }
