@@ -14,6 +14,8 @@ pub mod fmu;
 pub mod identify;
 pub mod joint;
 #[cfg(feature = "tool")]
+pub mod outside;
+#[cfg(feature = "tool")]
 pub mod pack;
 #[cfg(feature = "tool")]
 pub mod read;

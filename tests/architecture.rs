@@ -33,7 +33,7 @@ const EMPTY_NAMES: [&str; 8] = [
 /// Packages that the rooms of pure physics and values may name: `thiserror` is compile-time only.
 const PURE_PACKAGES: [&str; 1] = ["thiserror"];
 /// Those rooms.
-const PURE_ROOMS: [&str; 3] = ["joint", "causes", "record"];
+const PURE_ROOMS: [&str; 4] = ["joint", "causes", "outside", "record"];
 /// One file may name `libm`: the functions that the platform's C library would answer differently
 /// from system to system come from there (src/joint/elementary.rs says more).
 const ELEMENTARY: &str = "src/joint/elementary";

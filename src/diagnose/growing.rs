@@ -26,7 +26,7 @@ const OVERRATED: f64 = 0.5;
 const PREDICTORS: usize = 4;
 
 /// First causes, best first, beside which a second one is looked for where the set leaves structure.
-const BEGINNINGS: usize = 4;
+const BEGINNINGS: usize = 6;
 
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
 ///

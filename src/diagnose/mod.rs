@@ -14,6 +14,7 @@ pub mod joint_parameters;
 pub mod left_out;
 pub mod levels;
 mod mains_phase;
+mod outsiders;
 mod places;
 pub mod prepare;
 mod probability;
@@ -37,9 +38,8 @@ use structure::structure;
 use rayon::prelude::*;
 
 use crate::causes::{Kind, find};
-use crate::identify::{Fit, Form, Prediction, baseline, exported, refit, smoothed};
+use crate::identify::{Fit, Form, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
-use crate::joint::effect::Acting;
 use crate::joint::parameters::Parameter;
 use crate::record::Record;
 use crate::record::noise::independence;
@@ -158,7 +158,8 @@ fn assemble(
     // Noise alone leaves a share as large as its standard error now and then, and beside a small effect
     // that is a large part of it.
     let beyond_noise = of_before(structure_after.share - structure_after.error);
-    let doubles = doubles(&whole, &modelled);
+    let mut doubles = outsiders::doubles(&whole, &modelled);
+    doubles.extend(outsiders::outsiders(bench, &found, timed));
     let verdict = verdict::verdict(
         named.then(|| {
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
@@ -209,7 +210,10 @@ fn assemble(
                 Verdict::Clean | Verdict::Explained => Vec::new(),
                 _ => words::places(bench, &structure_after),
             },
-            doubles,
+            doubles: match verdict {
+                Verdict::Clean => Vec::new(),
+                _ => doubles,
+            },
         },
         not_identifiable: words::not_identifiable(records),
         next_experiment: None,
@@ -222,17 +226,6 @@ fn assemble(
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
     Ok((findings, found, whole))
-}
-
-/// What is not in the catalogue and may be there in place of a named cause.
-fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
-    let double = |acting: &Acting| {
-        let cause = find(acting.effect.name())?;
-        let mut tests = predictions.iter();
-        let clause = tests.find_map(|p| cause.double(&acting.values, &p.truth))?;
-        Some(format!("{}: {clause}", cause.name()))
-    };
-    whole.effects.iter().filter_map(double).collect()
 }
 
 fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {

@@ -38,6 +38,10 @@ pub fn summary(findings: &Findings) -> String {
             partly(&names, ratio, findings.gain.1),
             100.0 * findings.unexplained.share
         ),
+        Verdict::Unexplained if !findings.unexplained.doubles.is_empty() => format!(
+            "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it; {}.",
+            findings.unexplained.doubles.join("; ")
+        ),
         Verdict::Unexplained => "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it.".to_string(),
     }
 }

@@ -65,6 +65,10 @@ pub(super) fn verdict_sentence(findings: &Findings) -> String {
         (Verdict::PartlyExplained, _) => {
             format!("With {causes} a part is explained; structure beyond the noise remains.")
         }
+        (Verdict::Unexplained, true) if !findings.unexplained.doubles.is_empty() => format!(
+            "Structure beyond the noise that no cause of the catalogue predicts out of sample; {}.",
+            findings.unexplained.doubles.join("; ")
+        ),
         (Verdict::Unexplained, true) => {
             "Structure beyond the noise that no cause of the catalogue predicts out of sample."
                 .into()

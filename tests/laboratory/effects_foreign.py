@@ -175,4 +175,60 @@ class Settling(Scaled):
         }
 
 
-FOREIGN = [Ageing, Thermal, SensorHysteresis, FixtureResonance, Settling]
+class TemperatureWave(Scaled):
+    """The room warms and cools: two slow waves on the displacement reading."""
+
+    name = "temperature_wave"
+    kind = "measurement"
+    acts = frozenset({"read_displacement"})
+
+    def draw(self, scene, rng):
+        self.most = 0.3 * scene.largest("displacement")
+        slow = rng.uniform(0.6, 2.5)
+        self.periods = scene.duration * np.array([slow, slow / rng.uniform(2.2, 4.7)])
+        self.phases = rng.uniform(0.0, 2 * np.pi, 2)
+        self.sizes = np.array([1.0, rng.uniform(0.3, 1.0)])
+
+    def read_displacement(self, trace):
+        turns = 2 * np.pi * trace.time[:, None] / self.periods + self.phases
+        wave = (np.sin(turns) - np.sin(self.phases)) @ self.sizes
+        return trace.displacement + self.strength * self.most * wave
+
+    def describe(self):
+        return {
+            "size_m": self.strength * self.most,
+            "periods_s": self.periods.tolist(),
+            "shares": self.sizes.tolist(),
+        }
+
+
+class WanderingGain(Scaled):
+    """The gain of the displacement channel wanders: a random walk that is called back."""
+
+    name = "wandering_gain"
+    kind = "measurement"
+    acts = frozenset({"read_displacement"})
+
+    def draw(self, scene, rng):
+        self.memory = scene.duration * rng.uniform(0.05, 0.3)
+        self.seed = int(rng.integers(2**31))
+
+    def read_displacement(self, trace):
+        keep = np.exp(-(trace.time[1] - trace.time[0]) / self.memory)
+        steps = np.random.default_rng(self.seed).standard_normal(len(trace.time))
+        walk = lfilter([np.sqrt(1.0 - keep * keep)], [1.0, -keep], steps)
+        return trace.displacement * (1.0 + 0.3 * self.strength * (walk - walk[0]))
+
+    def describe(self):
+        return {"deviation": 0.3 * self.strength, "memory_s": self.memory, "walk_seed": self.seed}
+
+
+FOREIGN = [
+    Ageing,
+    Thermal,
+    SensorHysteresis,
+    FixtureResonance,
+    Settling,
+    TemperatureWave,
+    WanderingGain,
+]

@@ -1,0 +1,107 @@
+//! What is not in the catalogue and may be at work in place of what was named.
+
+use super::growing::leaves_structure;
+use super::prepare::Bench;
+use super::search::Found;
+use super::trials::{alarm, dispersion};
+use crate::causes::find;
+use crate::identify::{Fit, Prediction, Score, refit, scores};
+use crate::joint::effect::Acting;
+use crate::joint::parameters::Parameter;
+use crate::outside::{OUTSIDE, Outsider};
+use crate::record::written::quantity;
+use rayon::prelude::*;
+
+/// Shapes of a law that are refitted.
+const SHAPES: usize = 2;
+
+/// What a named cause of the set says itself of its doubles, with its name.
+pub fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
+    let double = |acting: &Acting| {
+        let cause = find(acting.effect.name())?;
+        let mut tests = predictions.iter();
+        let clause = tests.find_map(|p| cause.double(&acting.values, &p.truth))?;
+        Some(format!("{}: {clause}", cause.name()))
+    };
+    whole.effects.iter().filter_map(double).collect()
+}
+
+/// Laws outside the catalogue that explain the records better than the set that was found, in the place of one of
+/// its causes and beside the others; where nothing was found, than the baseline.
+pub fn outsiders(bench: &Bench, found: &Found, timed: bool) -> Vec<String> {
+    let best = &found.best;
+    let places: Vec<Option<usize>> = match best.effects.is_empty() {
+        true if !leaves_structure(&bench.train, best) => Vec::new(),
+        true => vec![None],
+        false => (0..best.effects.len()).map(Some).collect(),
+    };
+    let tried: Vec<(Option<usize>, &dyn Outsider)> = OUTSIDE
+        .iter()
+        .filter(|one| timed || !one.needs_time())
+        .flat_map(|one| places.iter().map(|place| (*place, *one)))
+        .collect();
+    tried
+        .par_iter()
+        .filter_map(|(place, one)| in_place_of(bench, found, (*place, *one)))
+        .collect()
+}
+
+/// What is said of one law in the place of one of the causes, or of none.
+fn in_place_of(
+    bench: &Bench,
+    found: &Found,
+    (place, one): (Option<usize>, &dyn Outsider),
+) -> Option<String> {
+    let (train, best) = (&bench.train, &found.best);
+    let mut others = best.effects.clone();
+    let named = place.map(|k| others.remove(k).effect.name());
+    if named.is_some_and(|name| !one.passes_for().contains(&name)) {
+        return None;
+    }
+    let start = match others.is_empty() {
+        true => found.baseline.clone(),
+        false => refit(train, best, others),
+    };
+    let fit = fitted(bench, &start, one)?;
+    let scale = dispersion(train, best).min(dispersion(train, &fit));
+    let unlikely = |fit: &Fit| {
+        let free: usize = fit.effects.iter().map(Acting::free).sum();
+        fit.misfit / scale + free as f64 * (train.rows().max(3) as f64).ln()
+    };
+    // A law that is to be named in no other's place has to prove itself as a cause has.
+    let margin = if named.is_some() { 0.0 } else { alarm(train) };
+    let values = &fit.effect(one.name())?.values;
+    let said = one
+        .parameters()
+        .iter()
+        .zip(values)
+        .map(|(parameter, value)| {
+            let Parameter { name, unit, .. } = parameter;
+            format!("{name} {}", quantity(*value, unit))
+        });
+    let said: Vec<String> = said.collect();
+    let place = named.map_or_else(String::new, |name| format!("{name}: "));
+    (unlikely(&fit) + margin < unlikely(best))
+        .then(|| format!("{place}{} ({})", one.words(), said.join(", ")))
+}
+
+/// The best fit with a law beside a set, where its values are no cause's.
+fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider) -> Option<Fit> {
+    let shapes = one.starts(&bench.scale).into_iter().map(|values| Acting {
+        effect: one.effect(),
+        values,
+    });
+    let mut scored: Vec<Score> = scores(&bench.train, start, &shapes.collect::<Vec<_>>());
+    scored.sort_by(|a, b| b.fall.total_cmp(&a.fall));
+    let fits = scored.into_iter().take(SHAPES).map(|score| {
+        let mut effects = start.effects.clone();
+        effects.push(score.acting);
+        refit(&bench.train, start, effects)
+    });
+    let own = |fit: &Fit| {
+        let acting = fit.effect(one.name());
+        acting.is_some_and(|a| one.plausible(&a.values, &bench.scale))
+    };
+    fits.filter(own)
+        .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+}

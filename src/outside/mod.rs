@@ -1,0 +1,29 @@
+//! Laws that are no cause of the catalogue, known so that none of it is blamed for what they do: one file each,
+//! one line each in [`OUTSIDE`].
+
+mod heated_friction;
+mod settling;
+
+use crate::causes::Scale;
+use crate::joint::effect::Effect;
+
+/// A law that a joint or a specimen may follow and the catalogue does not have.
+pub trait Outsider: Effect {
+    /// Names of the causes it passes for.
+    fn passes_for(&self) -> &'static [&'static str];
+    /// Where a search starts, as [`crate::causes::Cause::starts`].
+    fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// False where the fitted values are those of a cause.
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool;
+    /// What it may be, as a clause.
+    fn words(&self) -> &'static str;
+    /// This law as the effect it brings to the simulation.
+    fn effect(&self) -> &'static dyn Effect;
+    /// True where the law depends on time, so that a record without time cannot show it.
+    fn needs_time(&self) -> bool {
+        false
+    }
+}
+
+/// Every such law.
+pub static OUTSIDE: &[&dyn Outsider] = &[&heated_friction::HeatedFriction, &settling::Settling];
