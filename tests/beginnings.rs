@@ -9,6 +9,17 @@ use std::f64::consts::TAU;
 
 const CYCLE: usize = 80;
 
+/// What was kept of a test, a hundred samples a second.
+fn cut(force: Vec<f64>, displacement: Vec<f64>) -> Record {
+    Record {
+        name: "cut".to_string(),
+        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
+        force,
+        displacement,
+        ..Record::default()
+    }
+}
+
 /// Sixty sliders under a stepped sine of displacement with noise in the force: 22 cycles, of which the record
 /// keeps those from sample `from` on, reading `zero` too much.
 fn record(seed: u64, from: usize, zero: f64) -> Record {
@@ -31,13 +42,7 @@ fn record(seed: u64, from: usize, zero: f64) -> Record {
             displacement.push(u + zero);
         }
     }
-    Record {
-        name: "cut".to_string(),
-        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
+    cut(force, displacement)
 }
 
 /// Seed of the noise; printed with every failure.
@@ -88,13 +93,7 @@ fn drifting(from: usize, drift: f64) -> Record {
             displacement.push(u + drift * passed + 2e-8 * noise());
         }
     }
-    Record {
-        name: "cut".to_string(),
-        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
+    cut(force, displacement)
 }
 
 #[test]

@@ -65,10 +65,7 @@ impl Effect for NormalLoadVariation {
         let load = last.force + values[1] * last.displacement;
         let even = values[2] + values[3] * load.abs();
         let limit = (1.0 + values[0] * load + even * load.abs()).max(0.0);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

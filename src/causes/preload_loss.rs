@@ -50,10 +50,7 @@ impl Effect for PreloadLoss {
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
         let left = remaining(worn(last.dissipation, memory[0], values), values[2]);
         let limit = 1.0 - values[0] * (1.0 - left);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

@@ -84,10 +84,7 @@ impl Effect for RateDependentFriction {
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 + values[0] * log1p(memory[0] / values[1]);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

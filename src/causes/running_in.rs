@@ -91,10 +91,7 @@ impl Effect for RunningIn {
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 - values[0] * left((last.dissipation, memory[3]), values);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
     /// Where no time passes the compliance stays.
     fn in_series(&self, values: &[f64], force: f64, step: f64, memory: &[f64]) -> Response {

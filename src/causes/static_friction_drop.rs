@@ -96,10 +96,7 @@ impl Effect for StaticFrictionDrop {
         }
         let slid = (last.slip - memory[0]) / values[1];
         let limit = 1.0 + values[0] * exp(-slid * slid);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

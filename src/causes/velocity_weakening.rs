@@ -77,10 +77,7 @@ impl Effect for VelocityWeakening {
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = VelocityWeakening::factor(values, memory[0]);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

@@ -150,7 +150,8 @@ pub struct Unexplained {
     pub share: f64,
     /// Places in words, e.g. `record bolt-2, cycles 14–20, just after reversals`.
     pub places: Vec<String>,
-    /// What is not in the catalogue and may be there in place of a named cause, one clause each.
+    /// What is not in the catalogue and may be there in place of a named cause, or where none is named, one clause
+    /// each.
     pub doubles: Vec<String>,
 }
 

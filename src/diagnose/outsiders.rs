@@ -3,7 +3,7 @@
 use super::growing::leaves_structure;
 use super::prepare::Bench;
 use super::search::Found;
-use super::trials::{alarm, dispersion};
+use super::trials::{SHAPES, alarm, dispersion, penalty};
 use crate::causes::find;
 use crate::identify::{Fit, Prediction, Score, refit, scores};
 use crate::joint::effect::Acting;
@@ -11,9 +11,6 @@ use crate::joint::parameters::Parameter;
 use crate::outside::{OUTSIDE, Outsider};
 use crate::record::written::quantity;
 use rayon::prelude::*;
-
-/// Shapes of a law that are refitted.
-const SHAPES: usize = 2;
 
 /// What a named cause of the set says itself of its doubles, with its name.
 pub fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
@@ -66,7 +63,7 @@ fn in_place_of(
     let scale = dispersion(train, best).min(dispersion(train, &fit));
     let unlikely = |fit: &Fit| {
         let free: usize = fit.effects.iter().map(Acting::free).sum();
-        fit.misfit / scale + free as f64 * (train.rows().max(3) as f64).ln()
+        fit.misfit / scale + penalty(train, free)
     };
     // A law that is to be named in no other's place has to prove itself as a cause has.
     let margin = if named.is_some() { 0.0 } else { alarm(train) };

@@ -65,7 +65,7 @@ const LEADING: usize = 4;
 const FIRST: usize = 2;
 
 /// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more.
-const SHAPES: usize = 2;
+pub(super) const SHAPES: usize = 2;
 const OF_A_MASS: usize = 6;
 
 /// Share of the highest score below which no refit is tried: the score is the fall to first order.
@@ -223,7 +223,7 @@ fn scored(
 }
 
 /// Half the information criterion's penalty of a cause's free values, doubled: `k ln n`.
-fn penalty(problem: &Problem, free: usize) -> f64 {
+pub(super) fn penalty(problem: &Problem, free: usize) -> f64 {
     free as f64 * (problem.rows().max(3) as f64).ln()
 }
 

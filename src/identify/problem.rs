@@ -440,10 +440,7 @@ mod tests {
         }
         fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
             let limit = 1.0 - 1e-3 * (values[0] + memory[0]);
-            SlipLimit {
-                positive: limit,
-                negative: limit,
-            }
+            SlipLimit::either_way(limit)
         }
     }
 

@@ -70,10 +70,15 @@ pub struct SlipLimit {
 
 impl SlipLimit {
     /// The limit that changes nothing.
-    pub const UNCHANGED: SlipLimit = SlipLimit {
-        positive: 1.0,
-        negative: 1.0,
-    };
+    pub const UNCHANGED: SlipLimit = SlipLimit::either_way(1.0);
+
+    /// The same limit for sliding either way.
+    pub const fn either_way(limit: f64) -> SlipLimit {
+        SlipLimit {
+            positive: limit,
+            negative: limit,
+        }
+    }
 }
 
 /// Value of a law and its derivative with respect to the law's own argument.

@@ -69,10 +69,7 @@ impl Effect for HeatedFriction {
     }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = exp(-values[0] * memory[0]);
-        SlipLimit {
-            positive: limit,
-            negative: limit,
-        }
+        SlipLimit::either_way(limit)
     }
 }
 

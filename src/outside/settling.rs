@@ -35,7 +35,7 @@ static PARAMETERS: [Parameter; 2] = [
 /// Shares of the largest force from which a threshold is looked for.
 const STARTS: [f64; 3] = [0.5, 0.7, 0.85];
 
-/// Share of it below which the largest of all thresholds is that of no peak.
+/// Share of the largest force from which a threshold is that of high peaks alone.
 const HIGH: f64 = 0.3;
 
 impl Effect for Settling {
