@@ -8,12 +8,16 @@ use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows}
 use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion, trials};
 use crate::identify::{Fit, Problem};
 
-/// Share of the misfit beyond noise that a further cause must explain, or another set of what a set leaves: a
-/// weaker one may as well be the named cause's law being only nearly right.
+/// Share of the misfit beyond noise that another set must explain of what a set leaves.
 pub(super) const FURTHER_SHARE: f64 = 0.10;
 
+/// Share of the baseline's misfit beyond noise that a further cause must explain: a weaker one may as well be the
+/// named cause's law being only nearly right. Of 154 effects of the laboratory that were named rightly, 98 in a
+/// hundred left less than 0.062 of it.
+const NEARLY_RIGHT: f64 = 0.07;
+
 /// Part of that share which is enough of a set that leaves nothing beyond scatter.
-const COMPLETE: f64 = 0.3;
+const COMPLETE: f64 = 0.43;
 
 /// Share of its rows, beyond scatter, from which what a set leaves may be a second cause.
 const STRUCTURE: f64 = 0.05;
@@ -52,10 +56,11 @@ pub(super) fn grown(
         baseline,
         (effort, f64::INFINITY),
     );
-    let Some(one) = grow.next(baseline, &trials, f64::INFINITY) else {
-        return (baseline.clone(), trials);
+    // Of two neither may predict held-out cycles without the other.
+    let mut best = match grow.next(baseline, &trials, f64::INFINITY) {
+        Some(one) => grow.on(one, &trials),
+        None => baseline.clone(),
     };
-    let mut best = grow.on(one, &trials);
     if effort == Effort::Full
         && grow.leaves_another(baseline, &best)
         && let Some(two) = grow.elsewhere(&best, &trials)
@@ -189,15 +194,20 @@ pub(super) fn leaves_structure(problem: &Problem, fit: &Fit) -> bool {
 
 /// Misfit that one cause of several has to take away beside the others.
 pub(super) fn least(problem: &Problem, baseline: &Fit) -> f64 {
-    FURTHER_SHARE * (baseline.misfit - problem.rows() as f64).max(0.0)
+    NEARLY_RIGHT * (baseline.misfit - problem.rows() as f64).max(0.0)
 }
 
 /// Misfit that each of several causes has to take away: enough evidence, and its share, which is
-/// smaller the less they leave together: a law that is only nearly right is not mended wholly by another's.
-pub(super) fn share(problem: &Problem, fit: &Fit, least: f64) -> f64 {
+/// smaller the less they leave together: a law that is only nearly right is not mended wholly by another's. Where
+/// noise is what a model leaves, that tells nothing.
+pub(super) fn share(bench: &Bench, fit: &Fit, least: f64) -> f64 {
+    let problem = &bench.train;
     let left = places::beyond_scatter(problem, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
-    let least = least * (COMPLETE + (1.0 - COMPLETE) * left.min(1.0));
-    least.max(ALARM * dispersion(problem, fit))
+    let wanted = match bench.noise_is_repeated() {
+        true => COMPLETE + (1.0 - COMPLETE) * left.min(1.0),
+        false => 1.0,
+    };
+    (wanted * least).max(ALARM * dispersion(problem, fit))
 }
 
 /// Drops causes that the others have made needless; `least` is what one has to take away. A law whose values
@@ -214,7 +224,7 @@ pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) ->
             .filter(|less| all_plausible(&bench.scale, less))
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
-            Some(less) if less.misfit - fit.misfit < share(problem, &fit, least) => fit = less,
+            Some(less) if less.misfit - fit.misfit < share(bench, &fit, least) => fit = less,
             _ => break,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::prepare::Bench;
 use super::tested::{Prospect, beyond_unseen};
-use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, trials};
+use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
 use crate::identify::{Fit, Problem, refit, without};
@@ -76,16 +76,25 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
     }
 }
 
-/// The set with one cause exchanged for another that lowers the squared error most, held-out samples
-/// included: a cause was chosen before those that came after it were known. The new one comes last, and
-/// its place's trials come along.
+/// The set with one cause exchanged for another that lowers the squared error most, held-out samples and what
+/// its values cost included: a cause was chosen before those that came after it were known. The new one comes
+/// last, and its place's trials come along.
 pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
-    let least = ALARM * dispersion(&bench.train, best);
+    let scale = dispersion(&bench.train, best);
+    let least = ALARM * scale;
+    let cost = |fit: &Fit| {
+        let free: usize = fit.effects.iter().map(Acting::free).sum();
+        scale * penalty(&bench.train, free)
+    };
+    let own = cost(best);
     places
         .iter()
         .flat_map(|place| place.others().map(move |t| (place, &t.fit)))
         .filter(|(_, fit)| all_plausible(&bench.scale, fit))
-        .map(|(place, fit)| (Prospect::of(bench, best, fit).total(), place, fit))
+        .map(|(place, fit)| {
+            let gain = Prospect::of(bench, best, fit).total() + own - cost(fit);
+            (gain, place, fit)
+        })
         .filter(|(gain, ..)| *gain > least)
         .max_by(|(a, ..), (b, ..)| a.total_cmp(b))
         .map(|(_, place, fit)| (fit.clone(), place.trials.clone()))

@@ -109,7 +109,7 @@ fn settled(
         best = better;
         places = places::places(bench, timed, &best, first, Some(known));
     }
-    let share = share(&bench.train, &best, least);
+    let share = share(bench, &best, least);
     if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
         best = prune(bench, best, least, first);
         places = places::places(bench, timed, &best, first, None);

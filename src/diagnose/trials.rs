@@ -52,7 +52,7 @@ impl std::fmt::Debug for dyn Cause {
 /// How much work trials may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effort {
-    /// The best few by their scores, one shape each: enough to tell what is noise.
+    /// The best few by their scores, and what no score foretells, one shape each: enough to tell what is noise.
     Quick,
     /// Every cause whose score is worth a refit.
     Full,
@@ -72,7 +72,7 @@ const OF_A_MASS: usize = 6;
 const WORTH: f64 = 0.03;
 
 /// Falls to first order that a refit is credited with at most. Judged: four to five times the score were seen.
-const FORETOLD: f64 = 15.0;
+const FORETOLD: f64 = 20.0;
 
 /// Fall of the misfit beyond the information criterion's for a refinement of a law: one in a
 /// thousand by chance.
@@ -115,30 +115,32 @@ pub fn trials_of(
         Effort::Full => (FIRST, SHAPES),
     };
     let (leading, others) = scored.split_at(leading.min(scored.len()));
+    let tried = |s: &&Scored| effort == Effort::Full || s.1.iter().any(unforetold);
+    let others: Vec<&Scored> = others.iter().filter(tried).collect();
     let try_one = |(cause, scores): &Scored, bound: f64| {
         // What a refinement takes away is not known before it is fitted.
         let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
-        let foretold = |s: &Score| s.fall > worth.max((current.misfit - bound) / FORETOLD);
+        let foretold = |s: &&Score| s.fall > worth.max((current.misfit - bound) / FORETOLD);
         let rings = |s: &Score| problem.hauls(&s.acting);
         let shapes = match scores.iter().any(rings) {
             true if shapes == SHAPES => OF_A_MASS,
             _ => shapes,
         };
-        let fit = scores
-            .iter()
-            .take(shapes)
-            .filter(|s| foretold(s) || effort == Effort::Full && unforetold(s))
-            .fold(current.clone(), |best, s| {
-                let mut effects = current.effects.clone();
-                effects.push(s.acting.clone());
-                // A second shape has to do better than the first.
-                let bound = match best.effects.len() > current.effects.len() {
-                    true => bound.min(best.misfit),
-                    false => bound,
-                };
-                let fit = refit_below(problem, current, effects, bound);
-                if fit.misfit < best.misfit { fit } else { best }
-            });
+        let mut begun: Vec<&Score> = scores.iter().take(shapes).filter(foretold).collect();
+        if !begun.iter().any(|s| sticks(&s.acting)) {
+            begun.extend(scores.iter().find(|s| unforetold(s)));
+        }
+        let fit = begun.into_iter().fold(current.clone(), |best, s| {
+            let mut effects = current.effects.clone();
+            effects.push(s.acting.clone());
+            // A second shape has to do better than the first.
+            let bound = match best.effects.len() > current.effects.len() {
+                true => bound.min(best.misfit),
+                false => bound,
+            };
+            let fit = refit_below(problem, current, effects, bound);
+            if fit.misfit < best.misfit { fit } else { best }
+        });
         let fit = match fit.misfit < bound {
             true => refined(problem, scale, *cause, fit),
             false => fit,
@@ -158,9 +160,7 @@ pub fn trials_of(
         .iter()
         .fold(current.misfit, |least, t| least.min(t.fit.misfit));
     let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
-    if effort == Effort::Full {
-        trials.par_extend(others.par_iter().map(|one| try_one(one, bound)));
-    }
+    trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
     trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     trials
 }
@@ -168,8 +168,11 @@ pub fn trials_of(
 /// True where the first order tells nothing: of contacts that let go one by one the misfit may fall although no
 /// small part of it does.
 fn unforetold(score: &Score) -> bool {
-    let Acting { effect, values } = &score.acting;
-    score.fall == 0.0 && effect.sticking(values) > 0.0
+    score.fall == 0.0 && sticks(&score.acting)
+}
+
+fn sticks(acting: &Acting) -> bool {
+    acting.effect.sticking(&acting.values) > 0.0
 }
 
 /// χ² per degree of freedom, at least one: differences of misfit count only as far as the best
@@ -216,6 +219,14 @@ fn scored(
             .iter()
             .filter(|s| s.acting.effect.name() == cause.name());
         let mut own: Vec<Score> = own.cloned().collect();
+        // What the first order takes for the best size is none where it tells nothing.
+        let as_begun = starts
+            .iter()
+            .filter(|a| a.effect.name() == cause.name() && sticks(a));
+        own.extend(as_begun.map(|acting| Score {
+            acting: acting.clone(),
+            fall: 0.0,
+        }));
         own.sort_by(|a, b| b.fall.total_cmp(&a.fall));
         (cause, own)
     };

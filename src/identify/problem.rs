@@ -251,7 +251,7 @@ impl Problem {
                 && let Some(added) = added(&in_turns, input_place, &truth)
                 && let Some((read, turned)) = &as_read
             {
-                (input, between) = corrected(read, turned, &added);
+                (input, between) = corrected(&record.time, (read, turned), &added);
             }
         }
         let judged = self.judged(&truth, effects);

@@ -5,7 +5,7 @@ use super::march::added;
 use super::operators::Form;
 use super::problem::Prepared;
 use crate::joint::effect::{Acting, Trajectory};
-use crate::record::peaks::Between;
+use crate::record::peaks::{Between, between};
 
 /// Rounds in which what a sensor added to the displacement is taken off, at most.
 const MOST_ROUNDS: usize = 8;
@@ -28,17 +28,17 @@ pub(super) fn true_input(
         true => (measured.to_vec(), record.between.clone()),
         false => {
             let added = undone(form, correcting, truth, measured);
-            corrected(measured, &record.between, &added)
+            corrected(&record.time, as_measured, &added)
         }
     };
     let read = match form {
         Form::Play => {
             let times = effects.iter().filter_map(|a| a.effect.lateness(&a.values));
             let late: f64 = times.sum();
-            let (input, between) = undone(truth);
+            let (input, found) = undone(truth);
             match late == 0.0 {
-                true => (input, between),
-                false => ahead((&input, &between), -late),
+                true => (input, found),
+                false => ahead((&input, &found), -late),
             }
         }
         Form::Stop => match lateness(correcting) {
@@ -83,11 +83,54 @@ fn undone(form: Form, effects: &[Acting], truth: &mut Trajectory, measured: &[f6
 }
 
 /// An input, and what it does between samples, without what was added.
-pub(super) fn corrected(measured: &[f64], between: &Between, added: &[f64]) -> (Vec<f64>, Between) {
-    let input = measured.iter().zip(added).map(|(m, a)| m - a).collect();
-    let mut between = between.clone();
-    for peak in &mut between.peaks {
+///
+/// Both are found anew: hum upon a turn has tops of its own, and a rate that is told from those is none of the
+/// joint's. Of a record that was thinned the samples do not show them; what was found moves with its neighbours.
+pub(super) fn corrected(
+    time: &[f64],
+    (measured, found): (&[f64], &Between),
+    added: &[f64],
+) -> (Vec<f64>, Between) {
+    let input: Vec<f64> = measured.iter().zip(added).map(|(m, a)| m - a).collect();
+    if !found.thinned {
+        let found = between(time, &input);
+        return (input, found);
+    }
+    let mut moved = found.clone();
+    for peak in &mut moved.peaks {
         peak.value -= 0.5 * (added[peak.before - 1] + added[peak.before]);
     }
-    (input, between)
+    (input, moved)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sine with hum of a hundredth of it, sampled a hundred times a cycle: without the hum its tips are where
+    /// they were; moved with their neighbours they are off by a good part of it.
+    #[test]
+    fn tips_beneath_hum_are_found_where_it_is_taken_off() {
+        let time: Vec<f64> = (0..800).map(|i| 0.01 * f64::from(i)).collect();
+        let of = |wave: &dyn Fn(f64) -> f64| time.iter().map(|t| wave(*t)).collect::<Vec<f64>>();
+        let hum = of(&|t| 0.01 * (23.7 * std::f64::consts::TAU * t).sin());
+        let clean = of(&|t| (std::f64::consts::TAU * (t + 0.003)).sin());
+        let read: Vec<f64> = clean.iter().zip(&hum).map(|(u, h)| u + h).collect();
+        let found = between(&time, &read);
+        let worst = |found: &Between| {
+            let off = found.peaks.iter().map(|p| (p.value.abs() - 1.0).abs());
+            (found.peaks.len(), off.fold(0.0, f64::max))
+        };
+        let (input, anew) = corrected(&time, (&read, &found), &hum);
+        let back = input.iter().zip(&clean).map(|(a, b)| (a - b).abs());
+        assert!(back.fold(0.0, f64::max) < 1e-15);
+        let (tips, off) = worst(&anew);
+        assert_eq!((tips, off < 1e-5), (16, true), "{off}");
+        let thinned = Between {
+            thinned: true,
+            ..found
+        };
+        let (_, off) = worst(&corrected(&time, (&read, &thinned), &hum).1);
+        assert!(off > 1e-3, "{off}");
+    }
 }

@@ -20,6 +20,8 @@ pub struct Between {
     pub peaks: Vec<Peak>,
     /// Samples up to which a difference would reach across a jump of the rate, in order.
     pub kinks: Vec<usize>,
+    /// True where samples were taken out since they were found: those that are left do not show them.
+    pub thinned: bool,
 }
 
 impl Between {
@@ -34,6 +36,7 @@ impl Between {
 
     /// The same beside the samples kept of a record, by their indices; `time` is the whole record's.
     pub fn thin(&mut self, kept: &[usize], time: &[f64]) {
+        self.thinned |= kept.len() < time.len();
         let behind = |sample: usize| kept.partition_point(|&i| i < sample);
         self.peaks.retain_mut(|peak| {
             let was = peak.before;
@@ -121,8 +124,8 @@ fn bend(channel: &[f64], i: usize) -> f64 {
 fn corners(channel: &[f64]) -> Vec<usize> {
     let bend = |i: usize| bend(channel, i);
     let mut all: Vec<f64> = (1..channel.len() - 1).map(|i| bend(i).abs()).collect();
-    all.sort_by(f64::total_cmp);
-    let usual = all[all.len() / 2];
+    let middle = all.len() / 2;
+    let usual = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
     let both = |i: usize| (bend(i) + bend(i + 1)).abs();
     (2..channel.len() - 3)
         .filter(|&i| both(i) > SHARP * usual && both(i) >= both(i - 1).max(both(i + 1)))
@@ -185,6 +188,7 @@ mod tests {
             let Between {
                 peaks,
                 kinks: found,
+                ..
             } = between(&time, &channel);
             assert!((17..=21).contains(&peaks.len()), "{}", peaks.len());
             assert!(found.len().abs_diff(kinks) <= 2, "{}", found.len());
@@ -200,7 +204,7 @@ mod tests {
         for end in [300.0, 300.3] {
             let time: Vec<f64> = (0..600).map(f64::from).collect();
             let channel: Vec<f64> = time.iter().map(|t| t.min(end)).collect();
-            let Between { peaks, kinks } = between(&time, &channel);
+            let Between { peaks, kinks, .. } = between(&time, &channel);
             assert_eq!(kinks, [301]);
             match end == 300.0 {
                 true => assert_eq!(peaks, []),
@@ -218,7 +222,7 @@ mod tests {
         }
         let time: Vec<f64> = (0..200).map(f64::from).collect();
         let tips: Vec<f64> = time.iter().map(|t| (t % 20.0 - 10.0).abs()).collect();
-        let Between { peaks, kinks } = between(&time, &tips);
+        let Between { peaks, kinks, .. } = between(&time, &tips);
         assert_eq!(peaks, []);
         assert!(kinks.iter().all(|kink| kink % 10 == 1) && kinks.len() > 15);
     }
