@@ -1,5 +1,6 @@
 //! Laws of the measuring chain that a displacement sensor or the load cell may have.
 
+use super::Scale;
 use crate::joint::effect::Place;
 
 /// Where such a law acts with its values: on the sensor's channel unless it is the load cell's.
@@ -17,6 +18,28 @@ pub(super) fn first(place: Place, of_cell: usize) -> usize {
         Place::ForceChannel => of_cell,
         _ => 0,
     }
+}
+
+/// The load cell's values from which such a law is begun anew where force drives and the sensor's were fitted: what
+/// a load cell adds to a prescribed force the joint does not feel, and moves the less for it. The first `count` of
+/// the values are heights on their channels, from 0 on the sensor's and from `of_cell` on the load cell's.
+pub(super) fn on_the_cell(
+    values: &[f64],
+    (count, of_cell): (usize, usize),
+    scale: &Scale,
+) -> Option<Vec<f64>> {
+    let (sensor, cell) = (0..count, of_cell..of_cell + count);
+    let is_zero = |range: std::ops::Range<usize>| values[range].iter().all(|v| *v == 0.0);
+    if scale.judges_force || is_zero(sensor.clone()) || !is_zero(cell.clone()) {
+        return None;
+    }
+    let stiffness = scale.force / scale.displacement;
+    let mut moved = values.to_vec();
+    for (from, to) in sensor.zip(cell) {
+        moved[to] = -stiffness * values[from];
+        moved[from] = 0.0;
+    }
+    Some(moved)
 }
 
 #[cfg(test)]
@@ -91,6 +114,34 @@ mod tests {
                 sensors.len()
             };
             assert_eq!(cause.starts(&scale(false)).len(), starts, "{name}");
+        }
+    }
+    /// A jump and a hum of the sensor begin anew as the load cell's where force drives, and there alone.
+    #[test]
+    fn what_is_a_sensors_may_be_a_load_cells_that_drives() {
+        let scale = |judges_force| Scale {
+            force: 6.0,
+            displacement: 3.0,
+            judges_force,
+            ..Scale::default()
+        };
+        for (name, sensor, cell) in [
+            (
+                "offset_step",
+                vec![0.5, 1.0, 3.0, 0.0],
+                vec![0.0, 1.0, 3.0, -1.0],
+            ),
+            (
+                "mains_hum",
+                vec![0.5, 0.0, 50.0, 0.1, 0.2, 0.0, 0.0],
+                vec![0.0, 0.0, 50.0, 0.1, 0.2, -1.0, 0.0],
+            ),
+        ] {
+            let anew =
+                |values: &[f64], judges| find(name).unwrap().begun_anew(values, &scale(judges));
+            assert_eq!(anew(&sensor, false), Some(cell.clone()), "{name}");
+            assert_eq!(anew(&sensor, true), None, "{name}");
+            assert_eq!(anew(&cell, false), None, "{name}");
         }
     }
 }

@@ -191,7 +191,7 @@ impl Cause for Creep {
         vec![values[0], values[1], BESIDE, BESIDE]
     }
     /// A decade on, where one side has nothing: the time constant slides in small steps only.
-    fn begun_anew(&self, values: &[f64]) -> Option<Vec<f64>> {
+    fn begun_anew(&self, values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
         let [compliance, time_constant, faster, slower] = *values else {
             return None;
         };

@@ -157,6 +157,9 @@ impl Cause for MainsHum {
         values[3..5].fill(0.05);
         values
     }
+    fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
+        chain::on_the_cell(values, (2, 5), scale)
+    }
 }
 
 #[cfg(test)]

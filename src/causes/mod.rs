@@ -112,7 +112,7 @@ pub trait Cause: Effect {
         values.to_vec()
     }
     /// Other values of a refined law to begin from once more, where those fitted are the end of a way.
-    fn begun_anew(&self, _values: &[f64]) -> Option<Vec<f64>> {
+    fn begun_anew(&self, _values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
         None
     }
     /// False where the fitted values are those of another cause: two laws may be the same formula

@@ -182,6 +182,9 @@ impl Cause for OffsetStep {
         let of_cell = of_cell.filter(|_| scale.judges_force);
         of_sensor.chain(of_cell).collect()
     }
+    fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
+        chain::on_the_cell(values, (1, 3), scale)
+    }
 }
 
 #[cfg(test)]

@@ -47,6 +47,11 @@ static PARAMETERS: [Parameter; 4] = [
 /// Exponent from which a fall over decades of the rate is refined.
 const GRADUAL: f64 = 0.8;
 
+/// Exponent, share of the drop and of the Stribeck rate from which one is looked for that is far from a sharp one.
+const OVER_DECADES: f64 = 0.65;
+const DEEPER: f64 = 1.5;
+const SLOWER: f64 = 0.5;
+
 impl VelocityWeakening {
     /// Break-free factor at a slip rate.
     fn factor(values: &[f64], rate: f64) -> f64 {
@@ -118,6 +123,20 @@ impl Cause for VelocityWeakening {
             gradual[3] = GRADUAL;
         }
         gradual
+    }
+    /// A fall over decades of the rate is deeper than what was seen of it, and begins at slower rates: from a sharp
+    /// one its fit does not find there.
+    fn begun_anew(&self, values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
+        let [drop, rate, memory, _] = *values else {
+            return None;
+        };
+        let most = PARAMETERS[0].upper;
+        Some(vec![
+            (DEEPER * drop).min(most),
+            SLOWER * rate,
+            memory,
+            OVER_DECADES,
+        ])
     }
 }
 

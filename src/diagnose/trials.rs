@@ -142,7 +142,7 @@ pub fn trials_of(
             if fit.misfit < best.misfit { fit } else { best }
         });
         let fit = match fit.misfit < bound {
-            true => refined(problem, scale, *cause, fit),
+            true => refined((problem, scale), *cause, current.misfit, fit),
             false => fit,
         };
         let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
@@ -243,8 +243,9 @@ fn free(cause: &dyn Cause, fitted: Option<&Acting>) -> usize {
     fitted.map_or(cause.parameters().len(), Acting::free)
 }
 
-/// The fit with the refinements of the cause's law, where they bring more than they cost.
-fn refined(problem: &Problem, scale: &Scale, cause: &dyn Cause, fit: Fit) -> Fit {
+/// The fit with the refinements of the cause's law, where they bring more than they cost; `without` the cause the
+/// misfit is larger.
+fn refined((problem, scale): (&Problem, &Scale), cause: &dyn Cause, without: f64, fit: Fit) -> Fit {
     let place = fit
         .effects
         .iter()
@@ -253,22 +254,29 @@ fn refined(problem: &Problem, scale: &Scale, cause: &dyn Cause, fit: Fit) -> Fit
         return fit;
     };
     let values = cause.refined(&fit.effects[place].values, scale);
-    let fit = better(problem, fit, (place, values));
-    match cause.begun_anew(&fit.effects[place].values) {
-        Some(values) => better(problem, fit, (place, values)),
+    let nearby = fit.misfit;
+    let fit = better(problem, fit, (place, values), nearby);
+    match cause.begun_anew(&fit.effects[place].values, scale) {
+        // Far from what was fitted, what it begins with is worse.
+        Some(values) => better(problem, fit, (place, values), without),
         None => fit,
     }
 }
 
-/// The refit from other values of one of the causes, where it brings more than they cost.
-fn better(problem: &Problem, fit: Fit, (place, values): (usize, Vec<f64>)) -> Fit {
+/// The refit from other values of one of the causes, where it brings more than they cost; they begin smaller where
+/// they leave more than `most`.
+fn better(problem: &Problem, fit: Fit, (place, values): (usize, Vec<f64>), most: f64) -> Fit {
     let before = fit.effects[place].free();
     let mut effects = fit.effects.clone();
     effects[place].values = values;
     if effects == fit.effects {
         return fit;
     }
-    let other = refit(problem, &fit, effects);
+    let start = Fit {
+        misfit: most,
+        ..fit.clone()
+    };
+    let other = refit(problem, &start, effects);
     let after = other.effects[place].free();
     let more = after.saturating_sub(before);
     let fall = (fit.misfit - other.misfit) / dispersion(problem, &other);
