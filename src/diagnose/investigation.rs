@@ -213,9 +213,26 @@ impl Investigation {
             effects.remove(drop);
             beside(effects) < reached + margin
         };
+        // One of several causes may do what the beginning is wrong by, or one cause another's work.
+        let several = best.effects.len() > 1;
+        let wanted = if several {
+            reached + margin
+        } else {
+            reached - taken
+        };
+        let one_alone = || {
+            let asked = |cause: &dyn Cause| {
+                let mut names = self.found.trials.iter().map(|t| t.cause.name());
+                names.any(|name| name == cause.name())
+            };
+            let scale = &self.bench.scale;
+            let tried = trials_of(asked, &other, scale, &plain, (Effort::Full, wanted));
+            tried.iter().any(|t| t.fit.misfit < wanted)
+        };
         plain.misfit < reached + margin
             || beside(best.effects.clone()) < reached - taken
-            || best.effects.len() > 1 && (0..best.effects.len()).any(fewer)
+            || several && (0..best.effects.len()).any(fewer)
+            || (several || leaves_structure(&train, best)) && one_alone()
     }
 
     /// True where wear that goes on from record to record explains what wear of joints made new between them does

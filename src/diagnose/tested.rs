@@ -64,6 +64,11 @@ const TELLING: f64 = 16.0;
 /// predicted worse: its law then goes on differently from the joint's, but nothing else is at work.
 const DOMINANT: f64 = 0.5;
 
+/// Share of the fall of the misfit that the squared errors have to fall by. Judged: a cause that acts as loads do falls
+/// by as much beside white noise and by far more beside slow noise; what a prescribed displacement's own noise
+/// does to a force, by a sixth or none.
+const SLOW: f64 = 0.25;
+
 /// Squared error of held-out samples beyond their noise, in noise variances.
 pub fn beyond_unseen(bench: &Bench, fit: &Fit) -> f64 {
     let predictions = fit.predict(&bench.train);
@@ -110,12 +115,17 @@ const SUBSTANTIAL: f64 = 1.0 / 3.0;
 pub struct Prospect {
     /// Fall of the misfit on fitted samples.
     fitted: f64,
+    /// Fall of the squared error itself on fitted samples: where noise is slow, what a misfit of innovations shows may
+    /// be what the drive's own noise does from sample to sample.
+    slow: f64,
     /// Fall of the squared error on held-out samples.
     held_out: f64,
     /// Square of the difference between the two predictions of held-out samples.
     difference: f64,
     /// Misfit of the smaller set beyond the noise, on fitted samples.
     beyond: f64,
+    /// What noise alone may leave beyond.
+    scatter: f64,
 }
 
 impl Prospect {
@@ -124,15 +134,24 @@ impl Prospect {
         let (before, after) = (smaller.predict(&bench.train), larger.predict(&bench.train));
         let mut prospect = Prospect {
             fitted: smaller.misfit - larger.misfit,
+            slow: 0.0,
             held_out: 0.0,
             difference: 0.0,
             beyond: smaller.misfit - bench.train.rows() as f64,
+            scatter: scatter(bench.train.rows() as f64),
         };
         each_unseen(bench, |k, i, measured, weight| {
             let (old, new) = (before[k].judged[i], after[k].judged[i]);
             prospect.held_out += weight * ((measured - old).powi(2) - (measured - new).powi(2));
             prospect.difference += weight * (new - old).powi(2);
         });
+        for (k, record) in bench.train.records.iter().enumerate() {
+            let (_, judged) = bench.train.channels(k);
+            let error = |of: f64, i: usize| ((judged[i] - of) / bench.noise[k].deviation).powi(2);
+            for i in (0..judged.len()).filter(|&i| record.counts(i)) {
+                prospect.slow += error(before[k].judged[i], i) - error(after[k].judged[i], i);
+            }
+        }
         prospect
     }
 
@@ -142,9 +161,10 @@ impl Prospect {
     }
 
     /// False where held-out samples could have shown the set to be better and show it to be worse,
-    /// unless it takes most of the misfit away.
+    /// unless it takes most of the misfit away; and where the errors themselves hardly fall.
     pub fn holds(&self) -> bool {
-        self.held_out > 0.0 || self.difference < TELLING || self.dominates()
+        let unseen = self.difference < TELLING || self.dominates();
+        self.held_out > 0.0 || self.slow > SLOW * self.fitted && unseen
     }
 
     /// True where held-out samples show the set to be better, beyond what their noise may do: the squared errors of
@@ -153,8 +173,12 @@ impl Prospect {
         self.held_out > CERTAIN * 2.0 * self.difference.sqrt()
     }
 
-    /// True where the set takes most of the misfit beyond noise away, held-out samples included.
+    /// True where the set takes most of the misfit beyond noise away, held-out samples included, and the errors
+    /// themselves fall.
     pub fn dominates(&self) -> bool {
-        self.fitted > DOMINANT * self.beyond && self.total() > 0.0
+        self.fitted > DOMINANT * self.beyond
+            && self.beyond > self.scatter
+            && self.total() > 0.0
+            && self.slow > SLOW * self.fitted
     }
 }

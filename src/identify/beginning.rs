@@ -10,6 +10,7 @@ use super::operators::Form;
 use super::problem::{Prepared, Problem};
 use crate::record::cycles::{cycles, span, turning_points};
 use rayon::prelude::*;
+use std::ops::RangeInclusive;
 
 /// How a record begins, in units of the driving channel.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -27,6 +28,11 @@ impl Beginning {
             zero,
             turned: Vec::new(),
         }
+    }
+
+    /// A joint whose load had turned at these readings, oldest first.
+    fn behind(turned: Vec<f64>) -> Beginning {
+        Beginning { zero: 0.0, turned }
     }
 
     /// True for a virgin joint at the zero of its channel.
@@ -62,6 +68,9 @@ pub const BAND: f64 = 0.02;
 
 /// Shares of the way back to the last turn at which the load may have turned before the record began.
 const BACK: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Levels of a test that shrinks, over the level before.
+const SHRINKS: [f64; 4] = [0.4, 0.55, 0.7, 0.85];
 
 /// Other beginnings of the records that are worth a search, none where no other comes near the truth of any.
 ///
@@ -130,9 +139,10 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     let altogether = |beginning: &Beginning| least_misfit(&alone(form, &few, beginning));
     let (virgin_early, virgin_all) = rayon::join(|| left_early(&virgin), || altogether(&virgin));
     let best = past(input, altogether);
-    let Some((all, best)) = best.filter(|(all, _)| *all < virgin_all) else {
+    let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
     };
+    let (all, best) = moved(best, altogether, (3..=FINE, SWEEPS));
     let nearer = offset || left_early(&best) < HALF * virgin_early;
     match nearer && wins(all, virgin_all, judged.len()) {
         true => best,
@@ -152,55 +162,92 @@ pub fn past(input: &[f64], left: impl Fn(&Beginning) -> f64 + Sync) -> Option<(f
         return None;
     }
     let (low, high) = low_high(input.iter().copied());
-    let deepened = |(mut all, mut best): (f64, Beginning)| {
-        while best.turned.len() < DEEPEST {
-            let of = |turn: f64| {
-                let mut older = best.clone();
-                older.turned.insert(0, turn);
-                sharpened(older, &left)
-            };
-            let (before_low, before_high) = rayon::join(|| of(low), || of(high));
-            let both = [before_low, before_high];
-            match both
-                .into_iter()
-                .find(|older| wins(older.0, all, input.len()))
-            {
-                Some(older) => (all, best) = older,
+    let older = |turned: &[f64]| [low, high].map(|turn| [&[turn], turned].concat()).to_vec();
+    // A smaller block after the one whose turns are known.
+    let newer = |turned: &[f64]| match *turned {
+        [.., before, _] => BACK
+            .map(|share| input[0] + share * (before - input[0]))
+            .map(|turn| [turned, &[turn]].concat())
+            .to_vec(),
+        _ => Vec::new(),
+    };
+    let deepened = |mut all: f64, mut best: Beginning, most: usize, longer: Longer| {
+        while best.turned.len() < most {
+            let tried = longer(&best.turned).into_par_iter();
+            let tried = tried.map(|turned| sharpened(Beginning::behind(turned), &left));
+            let nearest = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
+            match nearest.filter(|longer| wins(longer.0, all, input.len())) {
+                Some(longer) => (all, best) = longer,
                 None => break,
             }
         }
         (all, best)
     };
-    // Of each range by itself: what is nearest with two turns may stay behind with older ones.
-    let nearest = |tried: &Vec<Beginning>| {
+    let nearest = |tried: &[Beginning]| {
         let all = tried.par_iter().map(|b| (left(b), b));
-        let (_, best) = all.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        Some(deepened(sharpened(best.clone(), &left)))
+        let nearest = all.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        nearest.map(|(_, best)| best.clone())
     };
-    let tried = histories(input);
-    let ranges = tried.par_iter().filter_map(nearest);
-    ranges.min_by(|(a, _), (b, _)| a.total_cmp(b))
+    // Of each range by itself: what is nearest with two turns may stay behind with older ones.
+    let of_range = |tried: &Vec<Beginning>| {
+        let (all, best) = sharpened(nearest(tried)?, &left);
+        Some(deepened(all, best, DEEP, &older))
+    };
+    let two = histories(input);
+    let shrunk: Vec<_> = shrinking((low, high)).map(Beginning::behind).collect();
+    let shrunk = || nearest(&shrunk).map(|best| moved(best, &left, (1..=ROUNDS, SWEEPS)));
+    let (shrunk, ranges) = rayon::join(shrunk, || {
+        two.par_iter().filter_map(of_range).collect::<Vec<_>>()
+    });
+    let ranges = ranges.into_iter().chain(shrunk);
+    let (all, best) = ranges.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some(deepened(all, best, DEEPEST, &newer))
 }
 
-/// Most turns that a record is asked for.
-const DEEPEST: usize = 4;
+/// Turns of which each has one more than those given.
+type Longer<'a> = &'a (dyn Fn(&[f64]) -> Vec<Vec<f64>> + Sync);
+
+/// Most turns that a record is asked for, and most beyond which no older one is.
+const DEEPEST: usize = 6;
+const DEEP: usize = 4;
 
 /// Rounds of halved moves of the turns.
-const ROUNDS: usize = 5;
+const ROUNDS: i32 = 5;
+
+/// Those after which what is nearest is known to a thousandth of its range.
+const FINE: i32 = 8;
+
+/// Most moves of every turn by the same step, where it is to be that fine.
+const SWEEPS: usize = 4;
 
 /// The same with turns where they leave least, by what `left` says of a beginning; and how much that is.
 pub fn sharpened(begun: Beginning, left: impl Fn(&Beginning) -> f64) -> (f64, Beginning) {
-    let mut move_by = span(&begun.turned);
+    moved(begun, left, (1..=ROUNDS, 1))
+}
+
+/// The turns moved by halved steps, each as often as that leaves less.
+fn moved(
+    begun: Beginning,
+    left: impl Fn(&Beginning) -> f64,
+    (halved, sweeps): (RangeInclusive<i32>, usize),
+) -> (f64, Beginning) {
+    let range = span(&begun.turned);
     let places = begun.turned.len();
     let mut best = (left(&begun), begun);
-    for _ in 0..ROUNDS {
-        move_by *= 0.5;
-        for (place, way) in (0..places).flat_map(|place| [(place, 1.0), (place, -1.0)]) {
-            let mut other = best.1.clone();
-            other.turned[place] += way * 0.25 * move_by;
-            let judged = left(&other);
-            if judged < best.0 {
-                best = (judged, other);
+    for times in halved {
+        let step = 0.25 * range * 0.5_f64.powi(times);
+        for _ in 0..sweeps {
+            let before = best.0;
+            for (place, by) in (0..places).flat_map(|place| [(place, step), (place, -step)]) {
+                let mut other = best.1.clone();
+                other.turned[place] += by;
+                let judged = left(&other);
+                if judged < best.0 {
+                    best = (judged, other);
+                }
+            }
+            if best.0 == before {
+                break;
             }
         }
     }
@@ -229,9 +276,21 @@ fn histories(input: &[f64]) -> [Vec<Beginning>; 3] {
             let back = BACK.map(|share| vec![before, start + share * (last - start)]);
             std::iter::once(vec![before, last]).chain(back)
         });
-        turned
-            .map(|turned| Beginning { zero: 0.0, turned })
-            .collect()
+        turned.map(Beginning::behind).collect()
+    })
+}
+
+/// Turns of tests whose levels shrink: each leaves one up and one down, which later loads close one by one.
+fn shrinking((low, high): (f64, f64)) -> impl Iterator<Item = Vec<f64>> {
+    let ways = [(low, high), (high, low)].into_iter();
+    let levels = ways.flat_map(|both| SHRINKS.map(|by| (both, by)));
+    levels.flat_map(|((one, other), by)| {
+        let middle = 0.5 * (one + other);
+        let turn = move |k: usize| {
+            let level = f64::powi(by, k.div_ceil(2) as i32);
+            middle + level * (if k.is_multiple_of(2) { one } else { other } - middle)
+        };
+        (3..=DEEPEST).map(move |turns| (0..turns).map(turn).collect())
     })
 }
 
@@ -271,16 +330,21 @@ mod tests {
 
     const SAMPLES: usize = 1500;
 
-    /// What the force does of which records are cut: blocks of three levels, up and down.
-    fn force(i: usize) -> f64 {
-        let level = [400.0, 1000.0, 700.0, 900.0, 500.0][i * 5 / (2 * SAMPLES)];
-        level * (std::f64::consts::TAU * 0.01 * i as f64).sin()
+    /// What the force does of which records are cut: blocks of five levels.
+    fn force(levels: [f64; 5]) -> Vec<f64> {
+        let level = |i: usize| levels[i * 5 / (2 * SAMPLES)];
+        let sine = |i: usize| (std::f64::consts::TAU * 0.01 * i as f64).sin();
+        (0..2 * SAMPLES).map(|i| level(i) * sine(i)).collect()
     }
 
-    /// A joint under that force from sample `from` on, with noise of a thousandth, as a record of its own
+    /// A joint under blocks up and down from sample `from` on, with noise of a thousandth, as a record of its own
     /// whose force reads `zero` too much.
     fn record(from: usize, zero: f64) -> Problem {
-        let force: Vec<f64> = (0..2 * SAMPLES).map(force).collect();
+        record_of([400.0, 1000.0, 700.0, 900.0, 500.0], from, zero)
+    }
+
+    fn record_of(levels: [f64; 5], from: usize, zero: f64) -> Problem {
+        let force = force(levels);
         let test = |force: &[f64]| Record {
             displacement: vec![0.0; force.len()],
             time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
@@ -347,19 +411,33 @@ mod tests {
         // In the level of 1000 N, behind its valley and behind its peak.
         for (from, last, within) in [(690, -1000.0, 20.0), (640, 1000.0, 20.0)] {
             let problem = record(from, 0.0);
-            let virgin = baseline(&problem).misfit;
             let other = found(&problem).unwrap();
             let turn = *other.turned.last().unwrap();
             assert!((turn - last).abs() < within, "{from}: {other:?}");
-            let mut begun = problem.clone();
-            begun.records[0].begin(Form::Play, &other);
-            // Noise alone: a twelfth of the square of its width for every sample.
-            let noise = SAMPLES as f64 * 9e-18 / 12.0;
-            let left = baseline(&begun).misfit;
-            assert!(
-                virgin > 3.0 * noise && left < 1.15 * noise,
-                "{from}: {virgin} {left} {noise}"
-            );
+            leaves_noise_alone(&problem, &other);
         }
+    }
+
+    /// Every level that shrank left a turn up and one down, which later loads close one by one.
+    #[test]
+    fn a_record_from_a_test_that_shrinks_is_answered_from_all_its_turns() {
+        for from in [1290, 1320] {
+            let problem = record_of([1000.0, 650.0, 350.0, 500.0, 1000.0], from, 0.0);
+            leaves_noise_alone(&problem, &found(&problem).unwrap());
+        }
+    }
+
+    /// With that beginning, where a virgin joint leaves far more.
+    fn leaves_noise_alone(problem: &Problem, beginning: &Beginning) {
+        let virgin = baseline(problem).misfit;
+        let mut begun = problem.clone();
+        begun.records[0].begin(Form::Play, beginning);
+        // A twelfth of the square of its width for every sample.
+        let noise = SAMPLES as f64 * 9e-18 / 12.0;
+        let left = baseline(&begun).misfit;
+        assert!(
+            virgin > 3.0 * noise && left < 1.15 * noise,
+            "{beginning:?}: {virgin} {left} {noise}"
+        );
     }
 }
