@@ -3,6 +3,7 @@
 pub mod amplitude_table;
 pub mod bootstrap;
 mod curves;
+mod drive;
 pub mod experiment;
 pub mod findings;
 pub mod gain;
@@ -29,9 +30,10 @@ mod words;
 pub use experiment::Options;
 pub use findings::Findings;
 
+use drive::without_drive_noise;
 use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
 use investigation::{Investigation, investigated};
-use prepare::Bench;
+use prepare::{Bench, form};
 use search::Found;
 use structure::structure;
 
@@ -73,7 +75,8 @@ pub fn diagnose_with(
         .collect();
     let records = thin.as_slice();
     let used: usize = records.iter().map(Record::len).sum();
-    let Investigation { bench, found } = investigated(records, timed, &mut progress);
+    let calm = without_drive_noise(form(records), records);
+    let Investigation { bench, found } = investigated(&calm, timed, &mut progress);
     progress("measuring the gain on held-out cycles");
     let (found, said) = match &options.dummy {
         Some(dummy) => experiment::dummy::settle(&bench, found, dummy),
@@ -81,6 +84,12 @@ pub fn diagnose_with(
     };
     let (mut findings, found, whole) = assemble(records, &bench, found)?;
     findings.outlook.dummy = said;
+    if calm != records {
+        findings.notes.push(
+            "The driving channel is noisy: it was smoothed where it is smooth within its noise, which the joint did not feel."
+                .to_string(),
+        );
+    }
     if used < all {
         findings.notes.push(format!(
             "{used} of the {all} samples were used: a cycle keeps at least a hundred, and its turning points."

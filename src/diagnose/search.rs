@@ -55,8 +55,15 @@ pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     let best = finely(bench, best);
     let least = least(&bench.train, &baseline);
     let (settled, mut places) = settled(bench, timed, least, best, &first);
-    let best = tested(bench, &baseline, settled.clone());
+    let mut best = tested(bench, &baseline, settled.clone());
     if best.effects != settled.effects {
+        places = places::places(bench, timed, &best, &first, None);
+    }
+    // Without it another minimum of the others was met that leaves no more.
+    while let Some(idle) = places.iter().position(|p| p.brought <= 0.0) {
+        let mut others = best.effects.clone();
+        others.remove(idle);
+        best = places::alone(&bench.train, &best, others, &first);
         places = places::places(bench, timed, &best, &first, None);
     }
     let scale = dispersion(&bench.train, &best);

@@ -161,10 +161,10 @@ impl Prospect {
     }
 
     /// False where held-out samples could have shown the set to be better and show it to be worse,
-    /// unless it takes most of the misfit away; and where the errors themselves hardly fall.
+    /// unless it takes most of the misfit away; and where the errors themselves on fitted ones do not fall.
     pub fn holds(&self) -> bool {
         let unseen = self.difference < TELLING || self.dominates();
-        self.held_out > 0.0 || self.slow > SLOW * self.fitted && unseen
+        self.slow > SLOW * self.fitted && unseen || self.slow > 0.0 && self.held_out > 0.0
     }
 
     /// True where held-out samples show the set to be better, beyond what their noise may do: the squared errors of

@@ -1,0 +1,44 @@
+//! The noise of the channel that drives, of which the joint felt nothing.
+
+use super::prepare::compliance_ratio;
+use crate::identify::Form;
+use crate::record::Record;
+use crate::record::calm::{calmed, fastest};
+use crate::record::cycles::span;
+use crate::record::mains::beneath_mains;
+
+/// Share of the judged channel's noise from which a drive's noise counts, by what the joint makes of it where that is
+/// most: a tenth of the variance.
+const COUNTS: f64 = 0.3;
+
+/// The records with a smooth driving channel where its noise counts: sliders that stick answer noise with their whole
+/// stiffness, and sliding ones are pushed back by it; taken for the joint's, both look like causes. A hum of the mains
+/// is no noise: it is a cause's to explain.
+pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
+    let calm = |record: &Record| {
+        let (drive, judged, steepest) = match form {
+            Form::Play => (&record.force, &record.displacement, 1.0),
+            Form::Stop => (
+                &record.displacement,
+                &record.force,
+                compliance_ratio(record),
+            ),
+        };
+        let noise = match &record.time {
+            Some(time) => fastest(drive).min(beneath_mains(time, drive).deviation),
+            None => fastest(drive),
+        };
+        let answered = noise * steepest * span(judged) / span(drive);
+        if answered <= COUNTS * fastest(judged) {
+            return record.clone();
+        }
+        let calm = calmed(drive, noise);
+        let mut record = record.clone();
+        match form {
+            Form::Play => record.force = calm,
+            Form::Stop => record.displacement = calm,
+        }
+        record
+    };
+    records.iter().map(calm).collect()
+}

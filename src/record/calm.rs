@@ -1,0 +1,121 @@
+//! A smooth channel beneath its noise.
+
+/// Samples to either side over which a parabola is fitted, one width after the other.
+const WIDTHS: [usize; 6] = [2, 3, 4, 6, 8, 12];
+
+/// Standard errors within which what two widths say is the same. Judged: with fewer, a ramp keeps more of its noise; with
+/// more, a sharp corner is further off than its noise.
+const ALIKE: f64 = 1.3;
+
+/// The channel as parabolas over its neighbours say it is, over as many as agree.
+///
+/// A least-squares parabola over `2m + 1` samples has the variance `σ² 3(3m² + 3m − 1)/((2m − 1)(2m + 1)(2m + 3))` in
+/// their middle (Savitzky and Golay 1964). The widest is taken whose interval of [`ALIKE`] standard errors has a
+/// value in common with those of all narrower ones (intersection of confidence intervals, Goldenshluger and
+/// Nemirovski 1997), so that corners, jumps and peaks stay as they are. `noise` is `σ`. Checked by the tests below.
+pub fn calmed(channel: &[f64], noise: f64) -> Vec<f64> {
+    let calm = |i: usize| {
+        let nearest = i.min(channel.len() - 1 - i);
+        let mut value = channel[i];
+        let (mut low, mut high) = (value - ALIKE * noise, value + ALIKE * noise);
+        for m in WIDTHS.into_iter().take_while(|&m| m <= nearest) {
+            let (wider, error) = parabola(&channel[i - m..=i + m]);
+            let within = ALIKE * noise * error;
+            (low, high) = (low.max(wider - within), high.min(wider + within));
+            if low > high {
+                break;
+            }
+            value = wider;
+        }
+        value
+    };
+    (0..channel.len()).map(calm).collect()
+}
+
+/// Differences of which the smallest noise is taken.
+const ORDERS: std::ops::RangeInclusive<u32> = 3..=8;
+
+/// White noise that no difference of third to eighth order exceeds: `k`-th differences of white noise have the
+/// variance `σ² (2k)!/(k!)²`, those of what is slower than a sixth of the sampling rate the less the higher `k`.
+pub fn fastest(channel: &[f64]) -> f64 {
+    let mut differences = channel.to_vec();
+    let mut power = 1.0;
+    let mut least = f64::INFINITY;
+    for order in 1..=*ORDERS.end() {
+        differences = differences.windows(2).map(|w| w[1] - w[0]).collect();
+        // (2k)!/(k!)² grows by 2 (2k − 1)/k.
+        power *= 2.0 * f64::from(2 * order - 1) / f64::from(order);
+        let mut squares: Vec<f64> = differences.iter().map(|d| d * d / power).collect();
+        squares.sort_by(f64::total_cmp);
+        let median = squares.get(squares.len() / 2).copied().unwrap_or(0.0);
+        if ORDERS.contains(&order) {
+            // The median of χ²₁ is 0.4549: kinks at reversals are outliers to it.
+            least = least.min((median / 0.4549).sqrt());
+        }
+    }
+    least
+}
+
+/// Value of the parabola through an odd count of neighbours in their middle, and its error over theirs.
+fn parabola(neighbours: &[f64]) -> (f64, f64) {
+    let m = (neighbours.len() / 2) as f64;
+    let all = (2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0);
+    let of = |(k, value): (usize, &f64)| {
+        let from_middle = k as f64 - m;
+        3.0 * (3.0 * m * m + 3.0 * m - 1.0 - 5.0 * from_middle * from_middle) / all * value
+    };
+    let middle = neighbours.iter().enumerate().map(of).sum();
+    let variance = 3.0 * (3.0 * m * m + 3.0 * m - 1.0) / all;
+    (middle, variance.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::noise::tests::drawn;
+    use super::*;
+
+    #[test]
+    fn a_parabola_is_met_whatever_its_width() {
+        let channel: Vec<f64> = (0..40).map(|i| 3.0 - 0.2 * f64::from(i * i)).collect();
+        for (before, after) in channel.iter().zip(calmed(&channel, 1.0)) {
+            assert!((before - after).abs() < 1e-9, "{before} {after}");
+        }
+    }
+
+    #[test]
+    fn noise_is_told_from_a_fast_sine() {
+        let mut random = drawn(20_261_125);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let noisy: Vec<f64> = (0..2000)
+            .map(|i| 1000.0 * (0.5 * f64::from(i)).sin() + noise())
+            .collect();
+        let told = fastest(&noisy);
+        assert!((0.85..1.5).contains(&told), "{told}");
+        let smooth: Vec<f64> = (0..2000).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        assert!(fastest(&smooth) < 1e-6);
+    }
+
+    /// A triangle and a jump of fifty times the noise: what noise is taken off leaves neither rounder.
+    #[test]
+    fn noise_is_taken_off_and_corners_stay() {
+        let mut random = drawn(20_261_124);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let true_value = |i: usize| {
+            let ramp = (i % 100) as f64;
+            let jump = if i > 1000 { 50.0 } else { 0.0 };
+            2.0 * ramp.min(100.0 - ramp) + jump
+        };
+        let noisy: Vec<f64> = (0..2000).map(|i| true_value(i) + noise()).collect();
+        let left = |of: &[f64], near: bool| {
+            let at = (20..1980).filter(|i| {
+                let corner = (i % 50).min(50 - i % 50);
+                (corner < 8) == near
+            });
+            let squares: Vec<f64> = at.map(|i| (of[i] - true_value(i)).powi(2)).collect();
+            (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        };
+        let calm = calmed(&noisy, fastest(&noisy));
+        let (smooth, corners) = (left(&calm, false), left(&calm, true));
+        assert!(smooth < 0.5 && corners < 1.0, "{smooth} {corners}");
+    }
+}
