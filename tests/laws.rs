@@ -125,6 +125,7 @@ fn scale() -> Scale {
         step: STEP,
         judges_force: true,
         ringing: vec![],
+        mains: vec![],
     }
 }
 

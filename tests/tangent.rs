@@ -144,6 +144,7 @@ fn effects() -> Vec<Acting> {
         step: STEP,
         judges_force: true,
         ringing: vec![],
+        mains: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);
     joint_causes

@@ -82,6 +82,9 @@ static PARAMETERS: [Parameter; 7] = [
     },
 ];
 
+/// Share of a nominal frequency within which the mains may be.
+const NEAR: f64 = 0.01;
+
 impl Effect for MainsHum {
     fn name(&self) -> &'static str {
         "mains_hum"
@@ -138,7 +141,11 @@ impl Cause for MainsHum {
         // A phase between two of these is 30 degrees from the nearer: three quarters of its fall.
         let small = 0.002;
         let mut starts = Vec::new();
-        for frequency in [50.0_f64, 60.0] {
+        for nominal in [50.0_f64, 60.0] {
+            // Over half a minute, a tenth of a hertz away is out of step three times.
+            let near = |f: &&f64| (**f / nominal - 1.0).abs() < NEAR;
+            let frequency = scale.mains.iter().find(near).copied();
+            let frequency = frequency.unwrap_or(nominal);
             for degrees in [15.0_f64, 75.0, 135.0] {
                 let (sine, cosine) = sincos(degrees.to_radians());
                 let hum = |size: f64| [size * sine, size * cosine];

@@ -88,6 +88,8 @@ pub struct Scale {
     pub judges_force: bool,
     /// Frequencies faster than the load at which what the baseline leaves is loudest \[rad/s\].
     pub ringing: Vec<f64>,
+    /// Frequencies near each of those of the mains at which it is loudest \[Hz\].
+    pub mains: Vec<f64>,
 }
 
 impl Scale {

@@ -1,9 +1,11 @@
 //! One phase of the mains for all records: each test starts at a moment of its own.
 
 use crate::causes::{Cause, find};
+use crate::identify::problem::Prepared;
 use crate::identify::{Fit, Prediction, Problem, refit};
 use crate::joint::effect::Acting;
 use crate::record::mains;
+use rayon::prelude::*;
 
 /// Frequencies tried to either side of a nominal one at most.
 const MOST: usize = 200;
@@ -17,29 +19,19 @@ pub fn align(problem: &mut Problem, first: &Fit) {
     let Some(hum) = find("mains_hum").filter(|_| problem.records.len() > 1) else {
         return;
     };
-    let frequency = &hum.parameters()[2];
+    let of_hum = &hum.parameters()[2];
     let left_by_first = first.residuals(problem);
     let residuals = in_scatters(&left_by_first);
-    let longest = problem
-        .records
-        .iter()
-        .map(|r| r.time.last().unwrap_or(&0.0) - r.time.first().unwrap_or(&0.0))
-        .fold(0.0, f64::max);
-    let lines = |f: f64| -> Vec<(f64, f64)> {
-        let both = problem.records.iter().zip(&residuals);
-        both.map(|(record, residual)| line(&record.time, residual, f))
-            .collect()
-    };
-    let strength = |f: f64| lines(f).iter().map(|l| l.0).sum::<f64>();
-    let best = mains::frequencies(longest, MOST)
+    let within = |(_, f): &(f64, f64)| (of_hum.lower..of_hum.upper).contains(f);
+    let loudest = mains::NOMINAL
         .into_iter()
-        .filter(|f| (frequency.lower..frequency.upper).contains(f))
-        .map(|f| (strength(f), f))
+        .filter_map(|nominal| loudest(problem, &residuals, nominal))
+        .filter(within)
         .max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((fall, frequency)) = best else {
+    let Some((fall, frequency)) = loudest else {
         return;
     };
-    let found = lines(frequency);
+    let found = lines(problem, &residuals, frequency);
     set_clocks(problem, &found, frequency);
     let samples: usize = residuals.iter().map(Vec::len).sum();
     if fall > STRONG * samples as f64 {
@@ -47,6 +39,36 @@ pub fn align(problem: &mut Problem, first: &Fit) {
         let begun = begun(problem, first, hum, (frequency, seen));
         anew(problem, first, begun);
     }
+}
+
+/// Frequencies near each of those of the mains at which residuals are loudest \[Hz\].
+pub fn loudest_mains(problem: &Problem, first: &Fit) -> Vec<f64> {
+    let residuals = in_scatters(&first.residuals(problem));
+    let near = |nominal| loudest(problem, &residuals, nominal).map(|(_, frequency)| frequency);
+    mains::NOMINAL.into_iter().filter_map(near).collect()
+}
+
+/// Fall of the sum of squares by sines of the frequency near a nominal one that takes most, one of each record, and
+/// that frequency.
+fn loudest(problem: &Problem, residuals: &[Vec<f64>], nominal: f64) -> Option<(f64, f64)> {
+    let lengths = problem.records.iter().map(Prepared::length);
+    let longest = lengths.fold(0.0, f64::max);
+    let fall = |f: f64| {
+        lines(problem, residuals, f)
+            .iter()
+            .map(|l| l.0)
+            .sum::<f64>()
+    };
+    mains::near(nominal, longest, MOST)
+        .into_par_iter()
+        .map(|f| (fall(f), f))
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+fn lines(problem: &Problem, residuals: &[Vec<f64>], frequency: f64) -> Vec<(f64, f64)> {
+    let both = problem.records.iter().zip(residuals);
+    both.map(|(record, residual)| line(&record.time, residual, frequency))
+        .collect()
 }
 
 /// The hum that gives the judged channel of the first record the line `seen`: a prescribed displacement's

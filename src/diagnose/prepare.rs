@@ -7,7 +7,7 @@ use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::cycles::span;
-use crate::record::mains::beneath_mains;
+use crate::record::mains::{beneath_mains, without_lines};
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::outliers::{Neighbours, outliers, scattered};
 use crate::record::repeats::{from_repeats, from_steady_changes};
@@ -290,12 +290,23 @@ fn fitted(mut problem: Problem) -> (Problem, Fit) {
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
 /// by the other records, else from the fastest variations of the baseline's residual.
 fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
-    let residuals = first.residuals(problem);
+    let mut residuals = first.residuals(problem);
+    // A hum does not repeat with the cycles and is no noise.
+    let hums = mains_phase::loudest_mains(problem, first);
+    let mut hum_free = Vec::new();
+    for (k, residual) in residuals.iter_mut().enumerate() {
+        let (_, judged) = problem.channels(k);
+        let time = &problem.records[k].time;
+        let quiet = without_lines(time, residual, &hums);
+        let both = judged.iter().zip(residual.iter().zip(&quiet));
+        hum_free.push(both.map(|(y, (r, q))| y - (r - q)).collect::<Vec<f64>>());
+        *residual = quiet;
+    }
     let own: Vec<Option<Noise>> = residuals
         .iter()
         .enumerate()
         .map(|(k, residual)| {
-            let (input, judged) = problem.channels(k);
+            let (input, judged) = (problem.channels(k).0, &hum_free[k]);
             let repeated = from_repeats(input, judged);
             let found = repeated.or_else(|| from_steady_changes(input, residual));
             found.filter(|n| !n.holds_a_change(residual))

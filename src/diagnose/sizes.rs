@@ -1,5 +1,6 @@
 //! Sizes of the records that the starts of the search are measured in.
 
+use super::mains_phase::loudest_mains;
 use crate::causes::Scale;
 use crate::identify::beginning::BAND;
 use crate::identify::problem::Prepared;
@@ -76,6 +77,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         step,
         judges_force: problem.operators.form == Form::Stop,
         ringing: tones,
+        mains: loudest_mains(problem, first),
     }
 }
 

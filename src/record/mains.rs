@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::noise::{Noise, of_thirds, thirds};
 
 /// What the mains' frequency is by name \[Hz\].
-const NOMINAL: [f64; 2] = [50.0, 60.0];
+pub const NOMINAL: [f64; 2] = [50.0, 60.0];
 
 /// Share by which mains leave it.
 const AWAY: f64 = 0.002;
@@ -16,13 +16,17 @@ const PER_CYCLE: f64 = 4.0;
 /// Frequencies about the nominal ones, in steps of a quarter of a cycle over a time \[s\], at most `most` to either
 /// side of each.
 pub fn frequencies(long: f64, most: usize) -> Vec<f64> {
-    let about = |nominal: f64| {
-        let half = (AWAY * nominal * PER_CYCLE * long).ceil() as usize;
-        let half = half.min(most);
-        let step = AWAY * nominal / half.max(1) as f64;
-        (0..=2 * half).map(move |i| nominal + step * (i as f64 - half as f64))
-    };
-    NOMINAL.into_iter().flat_map(about).collect()
+    let all = NOMINAL.into_iter();
+    all.flat_map(|nominal| near(nominal, long, most)).collect()
+}
+
+/// Those about one nominal frequency.
+pub fn near(nominal: f64, long: f64, most: usize) -> Vec<f64> {
+    let half = (AWAY * nominal * PER_CYCLE * long).ceil() as usize;
+    let half = half.min(most);
+    let step = AWAY * nominal / half.max(1) as f64;
+    let at = |i: usize| nominal + step * (i as f64 - half as f64);
+    (0..=2 * half).map(at).collect()
 }
 
 /// Amplitudes of the sine and the cosine of a frequency \[Hz\] in values over time.
@@ -37,11 +41,24 @@ pub fn line(time: &[f64], values: &[f64], frequency: f64) -> (f64, f64) {
     (sine / half, cosine / half)
 }
 
+/// Values over time without their lines of some frequencies \[Hz\], one after the other.
+pub fn without_lines(time: &[f64], values: &[f64], frequencies: &[f64]) -> Vec<f64> {
+    let mut left = values.to_vec();
+    for frequency in frequencies {
+        let (sine, cosine) = line(time, &left, *frequency);
+        for (t, value) in time.iter().zip(&mut left) {
+            let (s, c) = (TAU * frequency * t).sin_cos();
+            *value -= sine * s + cosine * c;
+        }
+    }
+    left
+}
+
 /// Noise of a channel from its fastest variations, as of `from_differences`, without what hums at the frequency of
 /// the mains, or three times that, in it: [`LONGEST`] samples at most.
 pub fn beneath_mains(time: &[f64], channel: &[f64]) -> Noise {
     let count = channel.len().min(LONGEST);
-    let mut left = thirds(&channel[..count]);
+    let left = thirds(&channel[..count]);
     let time = &time[..left.len()];
     let long = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
     let loudest = |tried: Vec<f64>| {
@@ -56,13 +73,7 @@ pub fn beneath_mains(time: &[f64], channel: &[f64]) -> Noise {
     let mains = loudest(frequencies(long, MOST));
     let near = |i: i32| mains + f64::from(i) / (FINER * PER_CYCLE * long.max(f64::MIN_POSITIVE));
     let mains = loudest((-FINER as i32..=FINER as i32).map(near).collect());
-    for frequency in [mains, 3.0 * mains] {
-        let (sine, cosine) = line(time, &left, frequency);
-        for (t, d) in time.iter().zip(&mut left) {
-            let (s, c) = (TAU * frequency * t).sin_cos();
-            *d -= sine * s + cosine * c;
-        }
-    }
+    let left = without_lines(time, &left, &[mains, 3.0 * mains]);
     of_thirds(&left, count)
 }
 

@@ -20,6 +20,7 @@ fn causes() -> Vec<(&'static str, String)> {
         step: 1e-3,
         judges_force: true,
         ringing: vec![],
+        mains: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);
     joint_causes
