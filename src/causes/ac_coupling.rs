@@ -1,6 +1,5 @@
 //! `ac_coupling`: a channel forgets what stands still.
 
-use super::creep::lag;
 use super::{Cause, Page, Scale, chain};
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::parameters::Parameter;
@@ -45,20 +44,7 @@ static PARAMETERS: [Parameter; 3] = [
 
 /// What a stage loses of its input, for inputs at these times.
 fn lost(corner: f64, time: &[f64], input: &[f64]) -> Vec<f64> {
-    let rate = std::f64::consts::TAU * corner;
-    let mut lost = 0.0;
-    let mut before = None;
-    let samples = time.iter().zip(input);
-    samples
-        .map(|(&time, &input)| {
-            if let Some((earlier, from)) = before {
-                let [kept, old, new] = lag(rate * (time - earlier));
-                lost = kept * lost + old * from + new * input;
-            }
-            before = Some((time, input));
-            lost
-        })
-        .collect()
+    chain::lagging(std::f64::consts::TAU * corner, 0.0, time, input)
 }
 
 impl Effect for AcCoupling {

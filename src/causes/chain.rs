@@ -1,7 +1,26 @@
 //! Laws of the measuring chain that a displacement sensor or the load cell may have.
 
 use super::Scale;
+use super::creep::lag;
 use crate::joint::effect::Place;
+
+/// What follows a channel with a first-order lag, `l̇ = r (U − l)` from `begins`, at every sample; exact for a
+/// channel that goes straight from sample to sample.
+pub(super) fn lagging(rate: f64, begins: f64, time: &[f64], channel: &[f64]) -> Vec<f64> {
+    let mut lagging = begins;
+    let mut before = None;
+    let samples = time.iter().zip(channel);
+    samples
+        .map(|(&time, &value)| {
+            if let Some((earlier, from)) = before {
+                let [kept, old, new] = lag(rate * (time - earlier));
+                lagging = kept * lagging + old * from + new * value;
+            }
+            before = Some((time, value));
+            lagging
+        })
+        .collect()
+}
 
 /// Where such a law acts with its values: on the sensor's channel unless it is the load cell's.
 pub(super) fn places(of_sensor: bool, of_cell: bool) -> [Option<Place>; 2] {

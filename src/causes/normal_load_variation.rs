@@ -93,7 +93,8 @@ impl Cause for NormalLoadVariation {
             let weight = weight * scale.force / scale.displacement;
             vec![odd / load, weight, even / load, square / (load * load)]
         };
-        let odd = [0.0, 1.0, 10.0].map(|weight| (weight, [0.02, 0.0, 0.0]));
+        // The force or the displacement: from either a refit finds what lies between, from between not always.
+        let odd = [0.0, 30.0].map(|weight| (weight, [0.02, 0.0, 0.0]));
         // Either way alike, force and displacement do different things: the one stiffens loops that the other widens.
         let even = [
             (0.0, [0.0, 0.02, 0.0]),

@@ -65,6 +65,9 @@ static PARAMETERS: [Parameter; 5] = [
 /// the start on one side is a joint that opens.
 const MET: f64 = 0.05;
 
+/// The same share of a shank that bears on one side alone, up to which either word fits.
+const MET_ALONE: f64 = 0.15;
+
 /// Depth of the contact and its slope.
 fn contact(depth: f64, rounding: f64) -> (f64, f64) {
     if depth <= 0.0 {
@@ -121,6 +124,12 @@ impl Cause for Pinning {
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
         values[1].min(values[2]) > MET * scale.displacement
     }
+    /// One that bears on one side alone, and nearly from the start.
+    fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
+        let (near, far) = (values[1].min(values[2]), values[1].max(values[2]));
+        let one_sided = far > scale.displacement && near < MET_ALONE * scale.displacement;
+        one_sided.then_some("joint_opening")
+    }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
         let rounding = 0.05 * scale.displacement;
         vec![values[0], values[1], values[2], rounding, 1.001]
@@ -135,5 +144,29 @@ impl Cause for Pinning {
             }
         }
         starts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one that bears on one side from nearly the start nobody can tell a joint that opens.
+    #[test]
+    fn a_shank_that_bears_on_one_side_at_once_may_be_a_joint_that_opens() {
+        let scale = Scale {
+            displacement: 1.0,
+            ..Scale::default()
+        };
+        for (positive, negative, either) in [
+            (0.1, 2.0, true),
+            (2.0, 0.1, true),
+            (0.3, 2.0, false),
+            (0.1, 0.5, false),
+        ] {
+            let values = [1.0, positive, negative, 0.0, 1.0];
+            let expected = either.then_some("joint_opening");
+            assert_eq!(Pinning.also_called(&values, &scale), expected, "{values:?}");
+        }
     }
 }

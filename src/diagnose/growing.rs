@@ -5,7 +5,9 @@ use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
-use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion, trials};
+use super::trials::{
+    ALARM, Effort, Trial, alarm, all_plausible, at_other_places, dispersion, trials,
+};
 use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that another set must explain of what a set leaves.
@@ -63,7 +65,7 @@ pub(super) fn grown(
     };
     if effort == Effort::Full
         && grow.leaves_another(baseline, &best)
-        && let Some(two) = grow.elsewhere(&best, &trials)
+        && let Some(two) = grow.elsewhere((baseline, &best), &trials)
     {
         best = grow.on(two, &trials);
     }
@@ -149,15 +151,19 @@ impl Grow<'_> {
         seen() || unseen()
     }
 
-    /// The best pair that begins with another cause than the set began with, if it is better than the set. Of the
-    /// same two the first may have taken from the second what no step of both gives back.
-    fn elsewhere(&self, best: &Fit, first: &[Trial]) -> Option<Fit> {
-        let evident = alarm(&self.bench.train);
+    /// The best pair that begins with another cause than the set began with, or with a cause at another of its
+    /// places, if it is better than the set. Of the same two the first may have taken from the second what no step
+    /// of both gives back.
+    fn elsewhere(&self, (baseline, best): (&Fit, &Fit), first: &[Trial]) -> Option<Fit> {
+        let Grow { bench, .. } = *self;
+        let evident = alarm(&bench.train);
         let began = best.effects.first();
+        let others = at_other_places(&bench.train, &bench.scale, baseline, first);
         let mut beginnings: Vec<&Trial> = first
             .iter()
-            .filter(|t| t.plausible && t.evidence >= evident)
             .filter(|t| began.is_none_or(|a| a.effect.name() != t.cause.name()))
+            .chain(&others)
+            .filter(|t| t.plausible && t.evidence >= evident)
             .collect();
         beginnings.sort_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
         let least = ALARM * dispersion(&self.bench.train, best);

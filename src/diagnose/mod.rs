@@ -101,7 +101,7 @@ pub fn diagnose_with(
 }
 
 /// Samples of all records together beyond which densely sampled cycles are thinned.
-const MANY: usize = 60_000;
+const MANY: usize = 30_000;
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
 /// less is the least bad of wrong explanations.

@@ -38,20 +38,22 @@ pub fn places(
         .map(|place| {
             let mut others = best.effects.clone();
             let named = others.remove(place).effect.name();
-            let brought = alone(problem, best, others, first).misfit - best.misfit;
+            let less = alone(problem, best, others, first);
+            let brought = less.misfit - best.misfit;
             let wanted = as_well(problem, best, brought).max(best.misfit + unseen);
             let known = known.take_if(|_| place + 1 == best.effects.len());
             let trials = match (best.effects.len(), known) {
                 (_, Some(known)) => known,
                 (1, None) => first.to_vec(),
                 // The others as they are beside the named one: refitted without it they take parts of it.
-                _ => trials(
-                    problem,
-                    &bench.scale,
-                    timed,
-                    &without(problem, best, place),
-                    (Effort::Full, wanted),
-                ),
+                _ => {
+                    let held = without(problem, best, place);
+                    let start = match held.misfit - best.misfit < HELD * brought {
+                        true => held,
+                        false => less,
+                    };
+                    trials(problem, &bench.scale, timed, &start, (Effort::Full, wanted))
+                }
             };
             Place {
                 named,
@@ -77,8 +79,8 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
 }
 
 /// The set with one cause exchanged for another that lowers the squared error most, held-out samples and what
-/// its values cost included: a cause was chosen before those that came after it were known. The new one comes
-/// last, and its place's trials come along.
+/// its values cost included: a cause was chosen, and its values found, before those that came after it were known.
+/// The new one comes last, and its place's trials come along.
 pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
     let scale = dispersion(&bench.train, best);
     let least = ALARM * scale;
@@ -89,7 +91,7 @@ pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Ve
     let own = cost(best);
     places
         .iter()
-        .flat_map(|place| place.others().map(move |t| (place, &t.fit)))
+        .flat_map(|place| place.able().map(move |t| (place, &t.fit)))
         .filter(|(_, fit)| all_plausible(&bench.scale, fit))
         .map(|(place, fit)| {
             let gain = Prospect::of(bench, best, fit).total() + own - cost(fit);
@@ -101,10 +103,16 @@ pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Ve
 }
 
 impl Place {
-    /// Causes in place of the named one; not those whose refit was not worth beginning.
+    /// Causes in this place, the named one as it was fitted here included; not those whose refit was not worth
+    /// beginning.
+    fn able(&self) -> impl Iterator<Item = &Trial> {
+        let able = |t: &&Trial| t.plausible && t.own().is_some();
+        self.trials.iter().filter(able)
+    }
+
+    /// Causes in place of the named one.
     fn others(&self) -> impl Iterator<Item = &Trial> {
-        let other = |t: &&Trial| t.plausible && t.cause.name() != self.named && t.own().is_some();
-        self.trials.iter().filter(other)
+        self.able().filter(|t| t.cause.name() != self.named)
     }
 
     /// Who does as well as the named cause, best first; and what it is also called.
@@ -141,6 +149,10 @@ pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
 pub fn scatter(rows: f64) -> f64 {
     SCATTER * (2.0 * rows).sqrt()
 }
+
+/// Times what a cause brought that the others may leave without it as they were beside it: beyond, a dictionary that
+/// suits them was not found from where it stood.
+const HELD: f64 = 10.0;
 
 /// Difference of misfit, in noise variances, within which two causes count as equally good: a
 /// likelihood ratio of exp(−5), less than one wrong in a hundred.

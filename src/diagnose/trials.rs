@@ -37,6 +37,24 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// What a fit with the cause brings over the one without it.
+    fn of(
+        (problem, scale): (&Problem, &Scale),
+        cause: &'static dyn Cause,
+        without: &Fit,
+        fit: Fit,
+    ) -> Trial {
+        let fall = (without.misfit - fit.misfit) / dispersion(problem, &fit);
+        let plausible = all_plausible(scale, &fit);
+        let free = free(cause, fit.effect(cause.name()));
+        Trial {
+            cause,
+            evidence: if plausible { fall } else { 0.0 } - penalty(problem, free),
+            plausible,
+            fit,
+        }
+    }
+
     /// The cause as it was fitted; `None` where its refit was not worth beginning.
     pub fn own(&self) -> Option<&Acting> {
         self.fit.effect(self.cause.name())
@@ -81,6 +99,9 @@ const REFINED: f64 = 10.0;
 /// Share of the fall that is wanted by which a law may stay behind before its refinements are fitted.
 const UNREFINED: f64 = 0.1;
 
+/// Share of the leader's fall by which a refit may stay behind that goes on where it ended.
+const NEAR: f64 = 0.02;
+
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
@@ -105,7 +126,7 @@ pub fn trials_of(
     current: &Fit,
     (effort, wanted): (Effort, f64),
 ) -> Vec<Trial> {
-    let mut scored = scored(usable, problem, scale, current);
+    let mut scored = scored((usable, |_: &Acting| true), problem, scale, current);
     let first = |s: &Scored| s.1.first().map_or(0.0, |s| s.fall);
     scored.sort_by(|a, b| first(b).total_cmp(&first(a)));
     let highest = scored.first().map_or(0.0, first);
@@ -126,7 +147,11 @@ pub fn trials_of(
             true if shapes == SHAPES => OF_A_MASS,
             _ => shapes,
         };
-        let mut begun: Vec<&Score> = scores.iter().take(shapes).filter(foretold).collect();
+        let first = &scores[..shapes.min(scores.len())];
+        let mut begun: Vec<&Score> = first.iter().filter(foretold).collect();
+        if effort == Effort::Full {
+            begun.extend(of_other_forms(scores, first.len()).filter(foretold));
+        }
         if !begun.iter().any(|s| sticks(&s.acting)) {
             begun.extend(scores.iter().find(|s| unforetold(s)));
         }
@@ -145,15 +170,7 @@ pub fn trials_of(
             true => refined((problem, scale), *cause, current.misfit, fit),
             false => fit,
         };
-        let fall = (current.misfit - fit.misfit) / dispersion(problem, &fit);
-        let own = fit.effect(cause.name());
-        let plausible = all_plausible(scale, &fit);
-        Trial {
-            cause: *cause,
-            evidence: if plausible { fall } else { 0.0 } - penalty(problem, free(*cause, own)),
-            plausible,
-            fit,
-        }
+        Trial::of((problem, scale), *cause, current, fit)
     };
     let mut trials: Vec<Trial> = leading.par_iter().map(|one| try_one(one, wanted)).collect();
     let lowest = trials
@@ -161,8 +178,48 @@ pub fn trials_of(
         .fold(current.misfit, |least, t| least.min(t.fit.misfit));
     let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
     trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
+    if effort == Effort::Full {
+        trials = settled((problem, scale), current, trials);
+    }
     trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     trials
+}
+
+/// Those of the trials that come near the best, refitted once more from where they ended: valleys are long, and rivals
+/// are told apart by little.
+fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Trial>) -> Vec<Trial> {
+    let lowest = trials
+        .iter()
+        .min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
+    let Some(lowest) = lowest.map(|t| &t.fit) else {
+        return trials;
+    };
+    let margin = NEAR * (current.misfit - lowest.misfit) + ALARM * dispersion(problem, lowest);
+    let within = lowest.misfit + margin;
+    let once_more = |trial: Trial| match trial.own().is_some() && trial.fit.misfit < within {
+        true => {
+            let fit = refit(problem, &trial.fit, trial.fit.effects.clone());
+            Trial::of((problem, scale), trial.cause, current, fit)
+        }
+        false => trial,
+    };
+    trials.into_par_iter().map(once_more).collect()
+}
+
+/// Of the scores behind the first `count` the best of every form that those before it do not have: which of several
+/// forms a law takes, first order tells less well than its size.
+fn of_other_forms(scores: &[Score], count: usize) -> impl Iterator<Item = &Score> {
+    let form = |s: &Score| {
+        s.acting
+            .values
+            .iter()
+            .map(|v| *v != 0.0)
+            .collect::<Vec<_>>()
+    };
+    let behind = scores.iter().enumerate().skip(count);
+    behind
+        .filter(move |(i, s)| scores[..*i].iter().all(|before| form(before) != form(s)))
+        .map(|(_, s)| s)
 }
 
 /// True where the first order tells nothing: of contacts that let go one by one the misfit may fall although no
@@ -188,11 +245,39 @@ pub fn all_plausible(scale: &Scale, fit: &Fit) -> bool {
     fit.effects.iter().all(plausible)
 }
 
+/// Causes that were tried beside a set, each in its likeliest form that acts at another place than the one that did
+/// best: a load cell that bends instead of a sensor, a spring across the joint instead of one in its load path.
+pub(super) fn at_other_places(
+    problem: &Problem,
+    scale: &Scale,
+    current: &Fit,
+    trials: &[Trial],
+) -> Vec<Trial> {
+    let tried = |a: &Acting| {
+        let mut own = trials.iter().filter(|t| t.plausible);
+        own.find_map(|t| t.own().filter(|own| own.effect.name() == a.effect.name()))
+    };
+    let elsewhere = |a: &Acting| tried(a).is_some_and(|own| own.places().ne(a.places()));
+    let scored = scored((|_| true, elsewhere), problem, scale, current);
+    let best = scored
+        .iter()
+        .filter_map(|(cause, scores)| Some((*cause, scores.first()?)));
+    let best: Vec<_> = best.filter(|(_, s)| s.fall > 0.25 * ALARM).collect();
+    let refits = best.into_par_iter().map(|(cause, score)| {
+        let mut effects = current.effects.clone();
+        effects.push(score.acting.clone());
+        let fit = refit(problem, current, effects);
+        let fit = refined((problem, scale), cause, current.misfit, fit);
+        Trial::of((problem, scale), cause, current, fit)
+    });
+    refits.collect()
+}
+
 type Scored = (&'static dyn Cause, Vec<Score>);
 
-/// Every usable cause with the scores of its shapes, best first.
+/// Every usable cause with the scores of those of its shapes that are `wanted`, best first.
 fn scored(
-    usable: impl Fn(&dyn Cause) -> bool,
+    (usable, wanted): (impl Fn(&dyn Cause) -> bool, impl Fn(&Acting) -> bool),
     problem: &Problem,
     scale: &Scale,
     current: &Fit,
@@ -212,6 +297,7 @@ fn scored(
                 values,
             })
         })
+        .filter(wanted)
         .collect();
     let found = scores(problem, current, &starts);
     let of = |cause: &'static dyn Cause| {
@@ -307,6 +393,30 @@ mod tests {
         assert!(!score("viscous_damping", &[1.0], 0.0));
         // A mass changes the turning points in jumps, and foretells what it takes away.
         assert!(!score("fixture_inertia", &[1.0], 0.0));
+    }
+
+    /// Two shapes of one form, then the first of each other.
+    #[test]
+    fn of_a_law_of_several_forms_each_is_tried() {
+        let effect = find("sensor_delay").unwrap().effect();
+        let score = |values: [f64; 3], fall: f64| Score {
+            acting: Acting {
+                effect,
+                values: values.to_vec(),
+            },
+            fall,
+        };
+        let scores = [
+            score([1.0, 0.0, 0.0], 9.0),
+            score([2.0, 0.0, 0.0], 8.0),
+            score([3.0, 0.0, 0.0], 7.0),
+            score([0.0, 1.0, 0.0], 6.0),
+            score([0.0, 2.0, 0.0], 5.0),
+            score([0.0, 0.0, 1.0], 4.0),
+        ];
+        let falls: Vec<f64> = of_other_forms(&scores, 2).map(|s| s.fall).collect();
+        assert_eq!(falls, [6.0, 4.0]);
+        assert_eq!(of_other_forms(&scores, 6).count(), 0);
     }
 
     #[test]

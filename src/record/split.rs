@@ -9,6 +9,7 @@ use super::cycles::{Cycle, alike, cycles};
 /// middle. The first cycle and the virgin leg always stay with the fit, and so does a cycle of the largest
 /// load: what a joint does beyond the loads of the fit is not told by them. Where the last cycles hold all of
 /// those, the ones before are set aside in their place, and where a begun cycle behind the last one does, that stays.
+/// So does what is behind the last one and longer than the cycles that are set aside.
 pub fn held_out(drive: &[f64]) -> Vec<bool> {
     let mut held = vec![false; drive.len()];
     let found = cycles(drive);
@@ -31,6 +32,8 @@ pub fn held_out(drive: &[f64]) -> Vec<bool> {
     let behind = found[found.len() - 1].end;
     let to = match found.get(last + count) {
         Some(next) => next.start,
+        // What rings down below what counts as a cycle may be long, and tells the fit what happens while it does.
+        None if drive.len() - behind > behind - found[last].start => behind,
         None if is_largest_alone(drive, (behind, drive.len())) => behind,
         None => drive.len(),
     };
@@ -115,6 +118,7 @@ fn middle_level(found: &[Cycle], largest: &[bool], budget: usize) -> Option<(usi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn whole_cycles_are_set_aside_and_the_first_is_kept() {
@@ -161,6 +165,19 @@ mod tests {
         let held = held_out(&drive);
         // Cycles begin a sample behind their zero.
         assert!(held[1201..].iter().all(|h| !h) && held[1101..1201].iter().all(|h| *h));
+    }
+
+    /// Of a ring-down the last cycles that count as such are set aside, and not all that follows them.
+    #[test]
+    fn what_rings_down_for_long_stays_with_the_fit() {
+        let drive: Vec<f64> = (0..6000)
+            .map(|i| 0.01 * f64::from(i))
+            .map(|t| (-0.15 * t).exp() * (TAU * t).sin())
+            .collect();
+        let held = held_out(&drive);
+        let share = held.iter().filter(|h| **h).count() as f64 / 6000.0;
+        assert!((0.03..0.2).contains(&share), "{share}");
+        assert!(held[4000..].iter().all(|h| !h));
     }
 
     #[test]

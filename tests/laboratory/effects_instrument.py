@@ -89,20 +89,30 @@ class FixtureInertia(Scaled):
         return {"mass_kg": self.strength * self.most}
 
 
+FILTERS = 0.4  # share of the late channels that a filter of first order makes late
+
+
 class SensorDelay(Instrument):
-    """One channel comes late."""
+    """One channel comes late, as it is or through a filter of first order."""
 
     name = "sensor_delay"
 
     def begin(self, scene, rng):
         self.most = 0.1 / scene.fastest
+        self.law = "filter" if rng.random() < FILTERS else "pure"
 
     def read(self, trace, values):
-        late = trace.time - self.strength * self.most
-        return np.interp(late, trace.time, values)
+        late = self.strength * self.most
+        if self.law == "pure" or late == 0.0:
+            return np.interp(trace.time - late, trace.time, values)
+        # Trapezoidal steps of the rig, from rest at the first value.
+        step = (trace.time[-1] - trace.time[0]) / (len(trace.time) - 1)
+        b, a = 0.5 * step / late, 1.0
+        read, _ = lfilter([b, b], [a + b, b - a], values - values[0], zi=[0.0])
+        return values[0] + read
 
     def own(self):
-        return {"delay_s": self.strength * self.most}
+        return {"law": self.law, "delay_s": self.strength * self.most}
 
 
 class OffsetStep(Instrument):

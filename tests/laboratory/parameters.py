@@ -80,6 +80,16 @@ def _mass(p):
     return max(p["mass"], p["driven_mass"])
 
 
+def _late(p):
+    """Of the form that was found, by how much the displacement is later than the force."""
+    none = 0.0, None
+    value, interval = p.get("cell_lag", none)
+    if value > 0.0:
+        return -value, interval and (-interval[1], -interval[0])
+    lag = p.get("lag", none)
+    return lag if lag[0] > 0.0 else p["delay"]
+
+
 QUANTITIES = [
     Quantity("viscous_damping", "coefficient", _read("coefficient_Ns_per_m")),
     Quantity("quadratic_damping", "coefficient", _read("coefficient_Ns2_per_m2")),
@@ -106,6 +116,8 @@ QUANTITIES = [
         "sensor_delay",
         "delay",
         lambda t: -t["delay_s"] if t["channel"] == "force" else t["delay_s"],
+        True,
+        _late,
     ),
     Quantity(
         "displacement_drift",

@@ -193,6 +193,18 @@ class Effects(unittest.TestCase):
                 (true,) = Sampled(scene, scene.clean, rig.Effect()).force
                 self.assertAlmostEqual(np.max(np.abs(force - true)) / hum.most, 0.5, delta=0.2)
 
+    def test_a_filter_turns_a_sine_by_its_angle(self):
+        scene, rng = small_scene(5)
+        drawn = [CATALOGUE["sensor_delay"](scene, rng) for _ in range(40)]
+        self.assertEqual({effect.law for effect in drawn}, {"pure", "filter"})
+        late = next(effect for effect in drawn if effect.law == "filter")
+        late.strength, late.most = 0.5, 0.1
+        time = 1e-4 * np.arange(50_000)
+        read = late.read(SimpleNamespace(time=time), np.sin(7.0 * time))
+        angle = np.arctan(7.0 * 0.05)
+        exact = np.cos(angle) * np.sin(7.0 * time - angle)
+        self.assertLess(np.max(np.abs(read - exact)[20_000:]), 1e-6)
+
     def test_every_effect_vanishes_at_no_strength_and_shows_at_full(self):
         for name, make in {**CATALOGUE, **FOREIGN}.items():
             scene, rng = small_scene(1)

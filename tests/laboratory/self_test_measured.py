@@ -316,6 +316,13 @@ class Quality(unittest.TestCase):
         (row,) = parameters.compare(right)
         self.assertAlmostEqual(row["error"], 0.04)
         self.assertTrue(row["covered"])
+        none = [0.0, None]
+        for lag, cell in (([1.1e-3, [9e-4, 1.3e-3]], none), (none, [1.1e-3, [9e-4, 1.3e-3]])):
+            right["found"]["sensor_delay"] = {"delay": none, "lag": lag, "cell_lag": cell}
+            right["parameters"]["channel"] = "force" if lag == none else "displacement"
+            (row,) = parameters.compare(right)
+            self.assertAlmostEqual(row["error"], 0.1)
+            self.assertTrue(row["covered"])
         hum = mark("mains_hum", diagnosis("mains_hum"), parameters={"amplitude_m": 5.0})
         hum["found"]["mains_hum"] = {"sine": [3.0, [2.8, 3.2]], "cosine": [-4.0, [-4.1, -3.9]]}
         (row,) = parameters.compare(hum)
