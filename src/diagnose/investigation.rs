@@ -30,7 +30,7 @@ const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
 
 /// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
-pub fn investigated(
+pub(super) fn however_worn(
     records: &[Record],
     timed: bool,
     progress: &mut impl FnMut(&str),
@@ -151,7 +151,7 @@ fn left(train: &Problem, fit: &Fit, (k, beginning): (usize, &Beginning)) -> f64 
 }
 
 /// What is found from the baseline of the records as they are weighed.
-fn searched(
+pub(super) fn searched(
     mut bench: Bench,
     mut first: Fit,
     timed: bool,
@@ -182,7 +182,7 @@ impl Investigation {
     }
 
     /// χ² per degree of freedom of what was found, at least one.
-    fn dispersion(&self) -> f64 {
+    pub(super) fn dispersion(&self) -> f64 {
         dispersion(&self.bench.train, &self.found.best)
     }
 
@@ -267,7 +267,7 @@ impl Investigation {
 
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what
     /// was found, and everything refitted to both.
-    fn sharpened(mut self) -> Investigation {
+    pub(super) fn sharpened(mut self) -> Investigation {
         if self.is_virgin() {
             return self;
         }

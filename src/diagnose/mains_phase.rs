@@ -1,7 +1,7 @@
 //! One phase of the mains for all records: each test starts at a moment of its own.
 
 use crate::causes::{Cause, find};
-use crate::identify::problem::Prepared;
+use crate::identify::prepared::Prepared;
 use crate::identify::{Fit, Prediction, Problem, refit};
 use crate::joint::effect::Acting;
 use crate::record::mains;

@@ -2,6 +2,7 @@
 
 use super::mains_phase;
 use super::sizes::sizes;
+use super::striking::{strike_channels, strike_residuals};
 use crate::causes::Scale;
 use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
@@ -9,9 +10,8 @@ use crate::record::Record;
 use crate::record::cycles::span;
 use crate::record::mains::{beneath_mains, without_lines};
 use crate::record::noise::{Noise, from_differences, from_residual};
-use crate::record::outliers::{Neighbours, outliers, scattered};
 use crate::record::repeats::{from_repeats, from_steady_changes};
-use crate::record::split::held_out;
+use crate::record::split::{held_out, held_out_before_the_end};
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -22,6 +22,8 @@ pub struct Bench {
     pub train: Problem,
     /// Held-out marks per record.
     pub held: Vec<Vec<bool>>,
+    /// True where they leave the end of the records to the fit.
+    pub end_is_fitted: bool,
     /// Samples that stand alone, per record: replaced by what their neighbours say, and no witness.
     pub struck: Vec<Vec<bool>>,
     /// Noise of the judged channel per record.
@@ -123,6 +125,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         whole,
         train,
         held,
+        end_is_fitted: false,
         struck,
         noise: Vec::new(),
         scale,
@@ -148,6 +151,15 @@ impl Bench {
     pub fn wear_on(&mut self) {
         self.whole.wears_on = true;
         self.train.wears_on = true;
+    }
+
+    /// Sets cycles aside from before the end of the records from now on.
+    pub fn fit_the_end(&mut self) {
+        for (k, held) in self.held.iter_mut().enumerate() {
+            *held = held_out_before_the_end(self.whole.channels(k).0);
+        }
+        self.end_is_fitted = true;
+        self.weigh(self.noise.clone());
     }
 
     /// True for a sample that no fit has seen and that is a witness.
@@ -229,47 +241,6 @@ impl Bench {
             })
             .collect()
     }
-}
-
-/// Strikes out what stands alone in a channel: a spike of the input would send the model's memory
-/// elsewhere for good.
-fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
-    let form = problem.operators.form;
-    for (record, struck) in problem.records.iter_mut().zip(struck) {
-        for channel in [&mut record.force, &mut record.displacement] {
-            for (i, instead) in outliers(channel, Neighbours::Line) {
-                channel[i] = instead;
-                struck[i] = true;
-                record.weight[i] = 0.0;
-            }
-        }
-        if struck.contains(&true) {
-            record.look_between(form);
-        }
-    }
-}
-
-/// Strikes out samples of the judged channel that stand alone in what the baseline leaves; true
-/// where there are any.
-fn strike_residuals(problem: &mut Problem, first: &Fit, struck: &mut [Vec<bool>]) -> bool {
-    let predictions = first.predict(problem);
-    let form = problem.operators.form;
-    let mut any = false;
-    for (k, record) in problem.records.iter_mut().enumerate() {
-        let (drive, judged) = match form {
-            Form::Play => (&record.force, &mut record.displacement),
-            Form::Stop => (&record.displacement, &mut record.force),
-        };
-        let predicted = &predictions[k].judged;
-        let residual: Vec<f64> = judged.iter().zip(predicted).map(|(y, p)| y - p).collect();
-        for (i, instead) in scattered(outliers(&residual, Neighbours::Level), drive) {
-            judged[i] = predicted[i] + instead;
-            struck[k][i] = true;
-            record.weight[i] = 0.0;
-            any = true;
-        }
-    }
-    any
 }
 
 /// The baseline on a grid adapted to it, as long as that lowers the misfit.

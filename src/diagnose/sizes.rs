@@ -3,7 +3,7 @@
 use super::mains_phase::loudest_mains;
 use crate::causes::Scale;
 use crate::identify::beginning::BAND;
-use crate::identify::problem::Prepared;
+use crate::identify::prepared::Prepared;
 use crate::identify::{Fit, Form, Problem};
 use crate::record::cycles::turning_points;
 use crate::record::jumps::jumps;

@@ -96,7 +96,7 @@ pub fn unseen_rows(bench: &Bench) -> f64 {
 
 /// Every held-out sample: its record and index, the measured value, and what its square weighs in noise
 /// variances, neighbours that vary together as fewer.
-fn each_unseen(bench: &Bench, mut each: impl FnMut(usize, usize, f64, f64)) {
+pub(super) fn each_unseen(bench: &Bench, mut each: impl FnMut(usize, usize, f64, f64)) {
     for (k, held) in bench.held.iter().enumerate() {
         let (_, judged) = bench.whole.channels(k);
         let noise = &bench.noise[k];

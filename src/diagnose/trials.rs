@@ -1,6 +1,8 @@
 //! Every cause tried beside a current set: scored at its vanishing size, the promising ones refitted
 //! jointly with the baseline.
 
+use super::forms::of_other_forms;
+use super::refinements::refined;
 use rayon::prelude::*;
 
 use crate::causes::{CATALOGUE, Cause, Scale, find};
@@ -38,7 +40,7 @@ pub struct Trial {
 
 impl Trial {
     /// What a fit with the cause brings over the one without it.
-    fn of(
+    pub(super) fn of(
         (problem, scale): (&Problem, &Scale),
         cause: &'static dyn Cause,
         without: &Fit,
@@ -91,10 +93,6 @@ const WORTH: f64 = 0.03;
 
 /// Falls to first order that a refit is credited with at most. Judged: four to five times the score were seen.
 const FORETOLD: f64 = 20.0;
-
-/// Fall of the misfit beyond the information criterion's for a refinement of a law: one in a
-/// thousand by chance.
-const REFINED: f64 = 10.0;
 
 /// Share of the fall that is wanted by which a law may stay behind before its refinements are fitted.
 const UNREFINED: f64 = 0.1;
@@ -206,22 +204,6 @@ fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Tria
     trials.into_par_iter().map(once_more).collect()
 }
 
-/// Of the scores behind the first `count` the best of every form that those before it do not have: which of several
-/// forms a law takes, first order tells less well than its size.
-fn of_other_forms(scores: &[Score], count: usize) -> impl Iterator<Item = &Score> {
-    let form = |s: &Score| {
-        s.acting
-            .values
-            .iter()
-            .map(|v| *v != 0.0)
-            .collect::<Vec<_>>()
-    };
-    let behind = scores.iter().enumerate().skip(count);
-    behind
-        .filter(move |(i, s)| scores[..*i].iter().all(|before| form(before) != form(s)))
-        .map(|(_, s)| s)
-}
-
 /// True where the first order tells nothing: of contacts that let go one by one the misfit may fall although no
 /// small part of it does.
 fn unforetold(score: &Score) -> bool {
@@ -245,38 +227,10 @@ pub fn all_plausible(scale: &Scale, fit: &Fit) -> bool {
     fit.effects.iter().all(plausible)
 }
 
-/// Causes that were tried beside a set, each in its likeliest form that acts at another place than the one that did
-/// best: a load cell that bends instead of a sensor, a spring across the joint instead of one in its load path.
-pub(super) fn at_other_places(
-    problem: &Problem,
-    scale: &Scale,
-    current: &Fit,
-    trials: &[Trial],
-) -> Vec<Trial> {
-    let tried = |a: &Acting| {
-        let mut own = trials.iter().filter(|t| t.plausible);
-        own.find_map(|t| t.own().filter(|own| own.effect.name() == a.effect.name()))
-    };
-    let elsewhere = |a: &Acting| tried(a).is_some_and(|own| own.places().ne(a.places()));
-    let scored = scored((|_| true, elsewhere), problem, scale, current);
-    let best = scored
-        .iter()
-        .filter_map(|(cause, scores)| Some((*cause, scores.first()?)));
-    let best: Vec<_> = best.filter(|(_, s)| s.fall > 0.25 * ALARM).collect();
-    let refits = best.into_par_iter().map(|(cause, score)| {
-        let mut effects = current.effects.clone();
-        effects.push(score.acting.clone());
-        let fit = refit(problem, current, effects);
-        let fit = refined((problem, scale), cause, current.misfit, fit);
-        Trial::of((problem, scale), cause, current, fit)
-    });
-    refits.collect()
-}
-
-type Scored = (&'static dyn Cause, Vec<Score>);
+pub(super) type Scored = (&'static dyn Cause, Vec<Score>);
 
 /// Every usable cause with the scores of those of its shapes that are `wanted`, best first.
-fn scored(
+pub(super) fn scored(
     (usable, wanted): (impl Fn(&dyn Cause) -> bool, impl Fn(&Acting) -> bool),
     problem: &Problem,
     scale: &Scale,
@@ -329,50 +283,6 @@ fn free(cause: &dyn Cause, fitted: Option<&Acting>) -> usize {
     fitted.map_or(cause.parameters().len(), Acting::free)
 }
 
-/// The fit with the refinements of the cause's law, where they bring more than they cost; `without` the cause the
-/// misfit is larger.
-fn refined((problem, scale): (&Problem, &Scale), cause: &dyn Cause, without: f64, fit: Fit) -> Fit {
-    let place = fit
-        .effects
-        .iter()
-        .position(|a| a.effect.name() == cause.name());
-    let Some(place) = place else {
-        return fit;
-    };
-    let values = cause.refined(&fit.effects[place].values, scale);
-    let nearby = fit.misfit;
-    let fit = better(problem, fit, (place, values), nearby);
-    match cause.begun_anew(&fit.effects[place].values, scale) {
-        // Far from what was fitted, what it begins with is worse.
-        Some(values) => better(problem, fit, (place, values), without),
-        None => fit,
-    }
-}
-
-/// The refit from other values of one of the causes, where it brings more than they cost; they begin smaller where
-/// they leave more than `most`.
-fn better(problem: &Problem, fit: Fit, (place, values): (usize, Vec<f64>), most: f64) -> Fit {
-    let before = fit.effects[place].free();
-    let mut effects = fit.effects.clone();
-    effects[place].values = values;
-    if effects == fit.effects {
-        return fit;
-    }
-    let start = Fit {
-        misfit: most,
-        ..fit.clone()
-    };
-    let other = refit(problem, &start, effects);
-    let after = other.effects[place].free();
-    let more = after.saturating_sub(before);
-    let fall = (fit.misfit - other.misfit) / dispersion(problem, &other);
-    if fall > penalty(problem, more) + REFINED {
-        other
-    } else {
-        fit
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -393,30 +303,6 @@ mod tests {
         assert!(!score("viscous_damping", &[1.0], 0.0));
         // A mass changes the turning points in jumps, and foretells what it takes away.
         assert!(!score("fixture_inertia", &[1.0], 0.0));
-    }
-
-    /// Two shapes of one form, then the first of each other.
-    #[test]
-    fn of_a_law_of_several_forms_each_is_tried() {
-        let effect = find("sensor_delay").unwrap().effect();
-        let score = |values: [f64; 3], fall: f64| Score {
-            acting: Acting {
-                effect,
-                values: values.to_vec(),
-            },
-            fall,
-        };
-        let scores = [
-            score([1.0, 0.0, 0.0], 9.0),
-            score([2.0, 0.0, 0.0], 8.0),
-            score([3.0, 0.0, 0.0], 7.0),
-            score([0.0, 1.0, 0.0], 6.0),
-            score([0.0, 2.0, 0.0], 5.0),
-            score([0.0, 0.0, 1.0], 4.0),
-        ];
-        let falls: Vec<f64> = of_other_forms(&scores, 2).map(|s| s.fall).collect();
-        assert_eq!(falls, [6.0, 4.0]);
-        assert_eq!(of_other_forms(&scores, 6).count(), 0);
     }
 
     #[test]

@@ -110,6 +110,9 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
     }
+    if bench.end_is_fitted {
+        notes.push("The last cycles showed what no earlier one did: the fit was given them to find out why, and the gain is measured on cycles before them.".to_string());
+    }
     if bench.whole.wears_on {
         notes.push("Wear goes on from record to record: they were taken for tests of one joint after the other, in the order given.".to_string());
     }

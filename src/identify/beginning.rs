@@ -7,7 +7,8 @@
 
 use super::fit::{Fit, baseline, least_misfit};
 use super::operators::Form;
-use super::problem::{Prepared, Problem};
+use super::prepared::Prepared;
+use super::problem::Problem;
 use crate::record::cycles::{cycles, span, turning_points};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;

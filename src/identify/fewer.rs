@@ -1,7 +1,7 @@
 //! A prepared record with fewer samples: a densely sampled cycle says no more than a well sampled one.
 
 use super::operators::Form;
-use super::problem::Prepared;
+use super::prepared::Prepared;
 
 impl Prepared {
     /// Every sample before `whole`, then each `every`-th and every turning point up to `length`.

@@ -4,7 +4,8 @@
 
 use super::nonnegative::Normal;
 use super::operators::Form;
-use super::problem::{Prediction, Prepared, Problem};
+use super::prepared::Prepared;
+use super::problem::{Prediction, Problem};
 use super::reached::Reached;
 use super::rows::each_row;
 use super::series;

@@ -1,99 +1,16 @@
-//! Records prepared for identification: one judged channel, weights, whitening, one common grid.
+//! All records of one joint on one common grid: what a model predicts of them, and what it leaves.
 
 use super::beginning::Beginning;
 use super::march::{Cells, March, Step, Wear, added};
 use super::operators::{Form, Operators};
+use super::prepared::Prepared;
 use super::undone::{corrected, true_input};
 use super::walk::walk;
 use super::weighing::whiten;
 use crate::joint::effect::{Acting, Trajectory};
 use crate::record::Record;
 use crate::record::noise::independence;
-use crate::record::peaks::{Between, between};
 use rayon::prelude::*;
-
-/// One record as the fit sees it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Prepared {
-    /// The record's name.
-    pub name: String,
-    /// Time \[s\], or sample numbers.
-    pub time: Vec<f64>,
-    /// Length of the step that ends at each sample; zero at the first.
-    pub steps: Vec<f64>,
-    /// Measured force \[N\].
-    pub force: Vec<f64>,
-    /// Measured displacement \[m\].
-    pub displacement: Vec<f64>,
-    /// One over the noise's innovation at each sample; zero keeps a sample out of the fit.
-    pub weight: Vec<f64>,
-    /// Correlation of neighbouring noise samples, removed from rows before they are summed.
-    pub autoregression: f64,
-    /// What the input did between samples; no samples of their own, but the joint was there.
-    pub between: Between,
-    /// What the joint went through before the first sample.
-    pub beginning: Beginning,
-}
-
-impl Prepared {
-    /// Every sample with unit weight, white.
-    pub fn new(record: &Record, form: Form) -> Prepared {
-        let time = record.clock();
-        let mut steps = vec![0.0; time.len()];
-        for i in 1..time.len() {
-            steps[i] = time[i] - time[i - 1];
-        }
-        let mut prepared = Prepared {
-            name: record.name.clone(),
-            between: Between::default(),
-            steps,
-            force: record.force.clone(),
-            displacement: record.displacement.clone(),
-            weight: vec![1.0; time.len()],
-            autoregression: 0.0,
-            beginning: Beginning::default(),
-            time,
-        };
-        prepared.look_between(form);
-        prepared
-    }
-
-    /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
-    pub fn look_between(&mut self, form: Form) {
-        self.between = between(&self.time, self.channels(form).0);
-    }
-
-    /// The record with another beginning than a virgin joint's; its input counts from the zero of that.
-    pub fn begin(&mut self, form: Form, beginning: &Beginning) {
-        self.beginning.clone_from(beginning);
-        if beginning.zero != 0.0 {
-            let input = match form {
-                Form::Play => &mut self.force,
-                Form::Stop => &mut self.displacement,
-            };
-            input.iter_mut().for_each(|x| *x -= beginning.zero);
-            self.look_between(form);
-        }
-    }
-
-    /// Time from the first sample to the last \[s\].
-    pub fn length(&self) -> f64 {
-        self.time.last().unwrap_or(&0.0) - self.time.first().unwrap_or(&0.0)
-    }
-
-    /// True where the sample is a witness: one that was struck out stands for its neighbours.
-    pub fn counts(&self, sample: usize) -> bool {
-        self.weight[sample] > 0.0
-    }
-
-    /// Measured input and measured judged channel of a form.
-    pub fn channels(&self, form: Form) -> (&[f64], &[f64]) {
-        match form {
-            Form::Play => (&self.force, &self.displacement),
-            Form::Stop => (&self.displacement, &self.force),
-        }
-    }
-}
 
 /// All records of one joint, judged in one form on one grid.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use super::late::{lateness, read_ahead};
 use super::march::added;
 use super::operators::Form;
-use super::problem::Prepared;
+use super::prepared::Prepared;
 use crate::joint::effect::{Acting, Trajectory};
 use crate::record::peaks::{Between, between};
 

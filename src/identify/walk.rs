@@ -2,7 +2,7 @@
 
 use super::late::corners;
 use super::march::{March, Step};
-use super::problem::Prepared;
+use super::prepared::Prepared;
 use crate::joint::course::Course;
 use crate::joint::passed::Passed;
 use crate::record::peaks::Between;

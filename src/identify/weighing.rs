@@ -1,6 +1,6 @@
 //! Rows whitened and weighed as the noise of their record asks.
 
-use super::problem::Prepared;
+use super::prepared::Prepared;
 
 /// Whitens and weighs rows of one record, sample after sample.
 pub struct Weighing<'a> {

@@ -11,12 +11,22 @@ use super::cycles::{Cycle, alike, cycles};
 /// those, the ones before are set aside in their place, and where a begun cycle behind the last one does, that stays.
 /// So does what is behind the last one and longer than the cycles that are set aside.
 pub fn held_out(drive: &[f64]) -> Vec<bool> {
+    marked(drive, false)
+}
+
+/// The same with the cycles before the last ones, where the fit has to see how the record ends.
+pub fn held_out_before_the_end(drive: &[f64]) -> Vec<bool> {
+    marked(drive, true)
+}
+
+fn marked(drive: &[f64], end_is_fitted: bool) -> Vec<bool> {
     let mut held = vec![false; drive.len()];
     let found = cycles(drive);
     let mut mark = |from: usize, to: usize| held[from..to].iter_mut().for_each(|h| *h = true);
     if found.len() < 6 {
-        for pieces in [IN_THE_MIDDLE, AT_THE_END] {
-            if let Some((from, to)) = piece(drive, &pieces) {
+        let at_end = &AT_THE_END[usize::from(end_is_fitted)..];
+        for pieces in [&IN_THE_MIDDLE[..], at_end] {
+            if let Some((from, to)) = piece(drive, pieces) {
                 mark(from, to);
             }
         }
@@ -27,6 +37,7 @@ pub fn held_out(drive: &[f64]) -> Vec<bool> {
     let at_end = found.len() - count;
     let last = match largest.iter().position(|l| *l) {
         Some(first) if first >= at_end => first - count,
+        _ if end_is_fitted => at_end - count,
         _ => at_end,
     };
     let behind = found[found.len() - 1].end;
@@ -165,6 +176,18 @@ mod tests {
         let held = held_out(&drive);
         // Cycles begin a sample behind their zero.
         assert!(held[1201..].iter().all(|h| !h) && held[1101..1201].iter().all(|h| *h));
+    }
+
+    #[test]
+    fn where_the_fit_sees_the_end_the_cycles_before_are_set_aside() {
+        let steps: Vec<f64> = (0..8).map(f64::from).collect();
+        for drive in [sines(&[0.5; 30]), sines(&[1.0; 3]), steps.repeat(100)] {
+            let (usual, other) = (held_out(&drive), held_out_before_the_end(&drive));
+            let last = drive.len() - 2;
+            assert!(usual[last] && !other[last]);
+            let count = |held: &[bool]| held.iter().filter(|h| **h).count();
+            assert!(2 * count(&other) > count(&usual), "{}", count(&other));
+        }
     }
 
     /// Of a ring-down the last cycles that count as such are set aside, and not all that follows them.
