@@ -115,16 +115,14 @@ const TAKES: f64 = 0.25;
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
 /// structure in it: without, the noise is larger than it was taken for.
 fn sober(bench: &Bench, found: Found) -> Found {
-    let beyond = found.baseline.misfit - bench.train.rows() as f64;
+    let rows = bench.train.rows() as f64;
+    let predictions = found.best.predict(&bench.train);
+    let left = structure(&bench.train, &predictions, &bench.noise);
+    // What is beyond noise whose variance is known to its own scatter only, and what is structure in any case.
+    let noise = rows * bench.most_left().unwrap_or(1.0);
+    let beyond = (found.baseline.misfit - noise).max(left.share * rows);
     let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
-    let left = || {
-        structure(
-            &bench.train,
-            &found.best.predict(&bench.train),
-            &bench.noise,
-        )
-    };
-    if takes_little && left().is_seen() {
+    if takes_little && left.is_seen() {
         return Found {
             best: found.baseline.clone(),
             rivals: Vec::new(),

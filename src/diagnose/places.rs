@@ -154,9 +154,11 @@ pub fn scatter(rows: f64) -> f64 {
 /// suits them was not found from where it stood.
 const HELD: f64 = 10.0;
 
-/// Difference of misfit, in noise variances, within which two causes count as equally good: a
-/// likelihood ratio of exp(−5), less than one wrong in a hundred.
-const MARGIN: f64 = 10.0;
+/// Difference of misfit, in noise variances, within which two causes count as equally good.
+///
+/// Two laws that noise-free records tell apart by λ differ by λ ± 2√λ; that the wrong one does better by the margin m is
+/// likeliest at λ = m, and then beyond √m standard deviations: seven in a thousand.
+const MARGIN: f64 = 6.0;
 
 /// Share of what the named cause brings by which a rival may fall short of it and still be listed:
 /// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
