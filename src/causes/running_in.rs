@@ -130,7 +130,7 @@ impl Cause for RunningIn {
         vec![values[0], values[1], 0.3, values[3], values[4]]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        let runs_in = values[0] > 0.0 || values[4] > 0.0 || soon(values, scale);
+        let runs_in = values[0] > 0.0 || values[4] != 0.0 || soon(values, scale);
         runs_in && !at_once(values, scale)
     }
     fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {

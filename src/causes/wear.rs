@@ -144,6 +144,8 @@ mod tests {
                 }
             ));
         }
+        // Stiffness that is lost as late as that is nobody else's.
+        assert!(run_in.plausible(&[0.0, 3.0, 0.0, 0.0, -1e-9], &scale));
         // Friction that grows, and stiffness, have one name.
         for grows in [[0.3, 1.2, 0.0, 0.0, 0.0], [0.0, 1.2, 0.0, 0.0, -1e-9]] {
             assert_eq!(run_in.also_called(&grows, &scale), None);

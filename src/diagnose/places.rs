@@ -118,7 +118,14 @@ impl Place {
     /// Who does as well as the named cause, best first; and what it is also called.
     pub fn rivals(&self, bench: &Bench, best: &Fit) -> Vec<String> {
         let as_well = as_well(&bench.train, best, self.brought);
-        let as_good = self.others().filter(|t| t.fit.misfit < as_well);
+        // What values more than a rival's a law needs, the misfit has to pay for.
+        let cost = |acting: Option<&Acting>| {
+            let free = acting.map_or(0, Acting::free);
+            dispersion(&bench.train, best) * penalty(&bench.train, free)
+        };
+        let own = cost(best.effect(self.named));
+        let spared = |t: &Trial| (own - cost(t.own())).max(0.0);
+        let as_good = self.others().filter(|t| t.fit.misfit < as_well + spared(t));
         let mut rivals: Vec<String> = as_good.map(|t| t.cause.name().to_string()).collect();
         let named = best.effect(self.named).zip(causes::find(self.named));
         let also = named.and_then(|(own, cause)| cause.also_called(&own.values, &bench.scale));
