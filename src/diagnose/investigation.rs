@@ -182,7 +182,7 @@ impl Investigation {
     }
 
     /// χ² per degree of freedom of what was found, at least one.
-    pub(super) fn dispersion(&self) -> f64 {
+    fn dispersion(&self) -> f64 {
         dispersion(&self.bench.train, &self.found.best)
     }
 
