@@ -1,5 +1,7 @@
 //! Records that begin in the middle of a test, or whose zero is off, are no joints with a cause.
 
+mod plays;
+
 use iwan::diagnose::diagnose;
 use iwan::diagnose::findings::Verdict;
 use iwan::record::Record;
@@ -78,21 +80,13 @@ fn drifting(from: usize, drift: f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let count = 24 * CYCLE;
-    let mut plays = [0.0_f64; 40];
-    let (mut force, mut displacement) = (Vec::new(), Vec::new());
-    for i in 0..count {
-        let passed = i as f64 / count as f64;
-        let bears = (350.0 + 150.0 * passed) * (TAU * i as f64 / CYCLE as f64).sin();
-        for (j, play) in plays.iter_mut().enumerate() {
-            let threshold = 15.0 * (j + 1) as f64;
-            *play = play.clamp(bears - threshold, bears + threshold);
-        }
-        if i >= from {
-            let u = 1e-8 * bears + 1e-9 * plays.iter().sum::<f64>();
-            force.push(bears);
-            displacement.push(u + drift * passed + 2e-8 * noise());
-        }
-    }
+    let passed = |i: usize| i as f64 / count as f64;
+    let bears = |i: usize| (350.0 + 150.0 * passed(i)) * (TAU * i as f64 / CYCLE as f64).sin();
+    let mut force: Vec<f64> = (0..count).map(bears).collect();
+    let truth = plays::displacement(&force).into_iter();
+    let reads = |(i, u): (usize, f64)| u + drift * passed(i) + 2e-8 * noise();
+    let displacement = truth.enumerate().skip(from).map(reads).collect();
+    force.drain(..from);
     cut(force, displacement)
 }
 

@@ -1,5 +1,7 @@
 //! What happens in the last cycles, which the fit does not see at first, has its cause looked for as well.
 
+mod plays;
+
 use iwan::diagnose::diagnose;
 use iwan::diagnose::findings::Verdict;
 use iwan::record::Record;
@@ -21,20 +23,15 @@ fn record(jump: f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let count = CYCLES * CYCLE;
-    let mut plays = [0.0_f64; 40];
-    let (mut force, mut displacement) = (Vec::new(), Vec::new());
-    for i in 0..count {
-        let level = [300.0, 500.0, 400.0][3 * i / count];
-        let bears = level * (TAU * i as f64 / CYCLE as f64).sin();
-        for (j, play) in plays.iter_mut().enumerate() {
-            let threshold = 15.0 * (j + 1) as f64;
-            *play = play.clamp(bears - threshold, bears + threshold);
-        }
+    let bears =
+        |i: usize| [300.0, 500.0, 400.0][3 * i / count] * (TAU * i as f64 / CYCLE as f64).sin();
+    let force: Vec<f64> = (0..count).map(bears).collect();
+    let reads = |(i, u): (usize, f64)| {
         let slipped = if i > count - CYCLE { jump } else { 0.0 };
-        force.push(bears);
-        displacement
-            .push(1e-8 * bears + 1e-9 * plays.iter().sum::<f64>() + slipped + NOISE * noise());
-    }
+        u + slipped + NOISE * noise()
+    };
+    let truth = plays::displacement(&force).into_iter();
+    let displacement = truth.enumerate().map(reads).collect();
     Record {
         name: "late".to_string(),
         time: Some((0..count).map(|i| 0.01 * i as f64).collect()),

@@ -1,5 +1,7 @@
 //! A fault of the load cell is found where the force drives, too: the model is then driven by a wrong reading.
 
+mod plays;
+
 use iwan::diagnose::diagnose;
 use iwan::diagnose::findings::{Findings, Verdict};
 use iwan::record::Record;
@@ -19,18 +21,15 @@ const SEED: u64 = 20261123;
 fn record(read: impl Fn(usize, f64) -> f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
-    let mut plays = [0.0_f64; 40];
-    let (mut force, mut displacement) = (Vec::new(), Vec::new());
-    for i in 0..20 * PER_CYCLE {
+    let bears = |i: usize| {
         let level = [0.4, 0.7, 1.0, 0.8, 0.5][i / PER_CYCLE / 4];
-        let bears = LARGEST * level * (TAU * i as f64 / PER_CYCLE as f64).sin();
-        for (j, play) in plays.iter_mut().enumerate() {
-            let threshold = 15.0 * (j + 1) as f64;
-            *play = play.clamp(bears - threshold, bears + threshold);
-        }
-        force.push(read(i, bears));
-        displacement.push(1e-8 * bears + 1e-9 * plays.iter().sum::<f64>() + 2e-8 * noise());
-    }
+        LARGEST * level * (TAU * i as f64 / PER_CYCLE as f64).sin()
+    };
+    let truth: Vec<f64> = (0..20 * PER_CYCLE).map(bears).collect();
+    let displacement = plays::displacement(&truth).into_iter();
+    let displacement = displacement.map(|u| u + 2e-8 * noise()).collect();
+    let cell = truth.iter().enumerate();
+    let force: Vec<f64> = cell.map(|(i, &bears)| read(i, bears)).collect();
     Record {
         name: "by_force".to_string(),
         time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),

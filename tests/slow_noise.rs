@@ -1,5 +1,7 @@
 //! A weak cause beside slow noise: a variance that few cycles tell too small is no structure that speaks against it.
 
+mod plays;
+
 use iwan::diagnose::diagnose;
 use iwan::diagnose::findings::Findings;
 use iwan::record::Record;
@@ -24,21 +26,17 @@ fn record(seed: u64, jump: f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut new = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let count = CYCLES * CYCLE;
-    let mut plays = [0.0_f64; 40];
     let mut noise = 0.0;
-    let (mut force, mut displacement) = (Vec::new(), Vec::new());
-    for i in 0..count {
-        let level = [300.0, 500.0][(i / CYCLE / 4) % 2];
-        let bears = level * (TAU * i as f64 / CYCLE as f64).sin();
-        for (j, play) in plays.iter_mut().enumerate() {
-            let threshold = 15.0 * (j + 1) as f64;
-            *play = play.clamp(bears - threshold, bears + threshold);
-        }
+    let bears =
+        |i: usize| [300.0, 500.0][(i / CYCLE / 4) % 2] * (TAU * i as f64 / CYCLE as f64).sin();
+    let force: Vec<f64> = (0..count).map(bears).collect();
+    let reads = |(i, u): (usize, f64)| {
         noise = ALIKE * noise + NOISE * (1.0 - ALIKE * ALIKE).sqrt() * new();
         let slipped = if i > count / 2 { jump } else { 0.0 };
-        force.push(bears);
-        displacement.push(1e-8 * bears + 1e-9 * plays.iter().sum::<f64>() + slipped + noise);
-    }
+        u + slipped + noise
+    };
+    let truth = plays::displacement(&force).into_iter();
+    let displacement = truth.enumerate().map(reads).collect();
     Record {
         name: "slow".to_string(),
         time: Some((0..count).map(|i| 0.01 * i as f64).collect()),

@@ -1,7 +1,7 @@
 //! Laws of several forms: a sensor or a load cell, a spring in the load path or across the joint.
 
 use super::refinements::refined;
-use super::trials::{ALARM, Trial, scored};
+use super::trials::{PROMISING, Trial, scored};
 use crate::causes::Scale;
 use crate::identify::{Fit, Problem, Score, refit};
 use crate::joint::effect::Acting;
@@ -40,7 +40,7 @@ pub(super) fn at_other_places(
     let best = scored
         .iter()
         .filter_map(|(cause, scores)| Some((*cause, scores.first()?)));
-    let best: Vec<_> = best.filter(|(_, s)| s.fall > 0.25 * ALARM).collect();
+    let best: Vec<_> = best.filter(|(_, s)| s.fall > PROMISING).collect();
     let refits = best.into_par_iter().map(|(cause, score)| {
         let mut effects = current.effects.clone();
         effects.push(score.acting.clone());

@@ -91,6 +91,9 @@ const OF_A_MASS: usize = 6;
 /// Share of the highest score below which no refit is tried: the score is the fall to first order.
 const WORTH: f64 = 0.03;
 
+/// Fall to first order below which no refit is tried either.
+pub(super) const PROMISING: f64 = 0.25 * ALARM;
+
 /// Falls to first order that a refit is credited with at most. Judged: four to five times the score were seen.
 const FORETOLD: f64 = 20.0;
 
@@ -128,7 +131,7 @@ pub fn trials_of(
     let first = |s: &Scored| s.1.first().map_or(0.0, |s| s.fall);
     scored.sort_by(|a, b| first(b).total_cmp(&first(a)));
     let highest = scored.first().map_or(0.0, first);
-    let worth = (WORTH * highest).max(0.25 * ALARM);
+    let worth = (WORTH * highest).max(PROMISING);
     let (leading, shapes) = match effort {
         Effort::Quick => (LEADING, 1),
         Effort::Full => (FIRST, SHAPES),
