@@ -61,6 +61,25 @@ fn what_comes_back_at_one_load_of_every_cycle_is_no_spark() {
     assert_eq!(left, sparks);
 }
 
+/// A hum of ten samples a period beneath white noise, and a residual that goes to and fro by thirty times its noise: of most
+/// samples one side foretells more and the other less, and those that both foretell wrongly are noise all the same.
+#[test]
+fn what_swings_beneath_noise_is_no_spark() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut swinging = |loud: f64, per_period: f64| -> Vec<f64> {
+        let swing = |i: i32| loud * (std::f64::consts::TAU * f64::from(i) / per_period).sin();
+        (0..12_000)
+            .map(|i| swing(i) + normal(&mut random))
+            .collect()
+    };
+    for neighbours in [Neighbours::Level, Neighbours::Line] {
+        for (loud, per_period) in [(6.0, 10.0), (30.0, 60.0), (30.0, 200.0)] {
+            let found = outliers(&swinging(loud, per_period), neighbours);
+            assert_eq!(found, Vec::new(), "{neighbours:?} {loud} {per_period}");
+        }
+    }
+}
+
 /// A slider at its limit until the drive turns: the force is level and then falls ever faster. Most of the
 /// record is slow and small, so that the bend exceeds what its samples are used to.
 #[test]

@@ -94,12 +94,11 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
             }
         })
         .collect();
-    // Half of the deviations are zero by construction where the channel is noise.
     let largest = channel.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let rounding = ROUNDING * largest;
-    let typical = quantile(deviations.iter().map(|d| d.abs()).collect(), 0.75);
+    let usual = typical(deviations.iter().map(|d| d.abs()).collect());
     let found: Vec<(usize, f64)> = (0..deviations.len())
-        .filter(|&k| deviations[k].abs() > (ALONE * typical).max(rounding))
+        .filter(|&k| deviations[k].abs() > (ALONE * usual).max(rounding))
         // Where the sides differ by more than the sample does from one of them, that side holds it:
         // next to the tip of a noiseless triangle its own side is off by rounding only.
         .filter(|&k| (sides[k].0 - sides[k].1).abs() < deviations[k].abs())
@@ -142,6 +141,14 @@ fn foretold(at: impl Fn(usize) -> f64, neighbours: Neighbours) -> f64 {
         spread += from_middle * from_middle;
     }
     mean - along / spread * (middle + (APART + 1) as f64)
+}
+
+/// The size of most deviations: their upper quartile, for half of them are zero by construction where a channel is
+/// noise; no less than the median of the others, for where it rises or bends by more than its noise nearly all are zero. (About one
+/// sample the others are what that sample does to its neighbours' prospects.)
+fn typical(deviations: Vec<f64>) -> f64 {
+    let seen = deviations.iter().copied().filter(|d| *d > 0.0).collect();
+    quantile(deviations, 0.75).max(quantile(seen, 0.5))
 }
 
 fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
