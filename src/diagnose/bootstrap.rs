@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 const RESAMPLES: usize = 500;
 
 /// Fewest blocks that have an interval.
-const FEWEST: usize = 3;
+pub const FEWEST: usize = 3;
 
 /// 95 % interval of a value computed from blocks: blocks drawn with replacement; `None` with fewer
 /// than three blocks, or where the value is no number.

@@ -6,6 +6,7 @@ use crate::record::Record;
 use crate::record::calm::{calmed, fastest};
 use crate::record::cycles::span;
 use crate::record::mains::beneath_mains;
+use crate::record::resolution::resolution;
 
 /// Share of the judged channel's noise from which a drive's noise counts, by what the joint makes of it where that is
 /// most: a tenth of the variance.
@@ -29,7 +30,7 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             None => fastest(drive),
         };
         let answered = noise * steepest * span(judged) / span(drive);
-        if answered <= COUNTS * fastest(judged) {
+        if answered <= COUNTS * fastest(judged).max(resolution(judged)) {
             return record.clone();
         }
         let calm = calmed(drive, noise);

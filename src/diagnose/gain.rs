@@ -1,13 +1,13 @@
 //! What an extension gains on samples that no fit has seen.
 
-use super::bootstrap::interval;
+use super::bootstrap::{FEWEST, interval};
 use super::findings::Errors;
 use super::prepare::Bench;
 use crate::identify::{Fit, Form, Prediction, Problem};
-use crate::record::cycles::cycles;
+use crate::record::cycles::{cycles, rms};
 
 /// Held-out rms after over before, with its 95 % interval by a bootstrap over whole held-out
-/// cycles; an empty interval where fewer than three of them are held out.
+/// cycles, over quarters of them where fewer than three are held out.
 pub fn ratio(
     bench: &Bench,
     before: &[Prediction],
@@ -62,14 +62,31 @@ pub fn stretches(bench: &Bench) -> Vec<Vec<(f64, f64)>> {
     .collect()
 }
 
-/// Squared errors in each held-out cycle (or run of samples without cycles), and their count.
+/// Parts of a cycle that are blocks of their own where too few whole cycles are held out.
+const QUARTERS: usize = 4;
+
+/// Squared errors in each held-out cycle (or run of samples without cycles), and their count; in each quarter of
+/// them where that gives too few blocks for an interval.
 fn blocks(bench: &Bench, predictions: &[Prediction]) -> Vec<(f64, f64)> {
+    let whole = blocks_of(bench, predictions, 1);
+    match whole.len() < FEWEST {
+        true => blocks_of(bench, predictions, QUARTERS),
+        false => whole,
+    }
+}
+
+fn blocks_of(bench: &Bench, predictions: &[Prediction], parts: usize) -> Vec<(f64, f64)> {
     let mut blocks = Vec::new();
     for (k, prediction) in predictions.iter().enumerate() {
         let (input, judged) = bench.whole.channels(k);
-        for pair in edges(input).windows(2) {
+        let edges = edges(input);
+        let cut = edges.windows(2).flat_map(|pair| {
+            let at = |part: usize| pair[0] + (pair[1] - pair[0]) * part / parts;
+            (0..parts).map(move |part| (at(part), at(part + 1)))
+        });
+        for (from, to) in cut {
             let (mut square, mut count) = (0.0, 0.0);
-            for i in (pair[0]..pair[1]).filter(|&i| bench.is_unseen(k, i)) {
+            for i in (from..to).filter(|&i| bench.is_unseen(k, i)) {
                 square += (judged[i] - prediction.judged[i]).powi(2);
                 count += 1.0;
             }
@@ -130,6 +147,18 @@ pub fn errors(bench: &Bench, predictions: &[Prediction]) -> Errors {
         stiffness_error: (!slopes.is_empty()).then(|| mean(&slopes)),
         stiffness_interval: interval(&slopes, mean),
     }
+}
+
+/// Share of the judged channel's variance that a model answers, of all records together.
+pub fn follows(bench: &Bench, predictions: &[Prediction]) -> f64 {
+    let (mut left, mut all) = (0.0, 0.0);
+    for (k, prediction) in predictions.iter().enumerate() {
+        let (_, judged) = bench.whole.channels(k);
+        let errors = judged.iter().zip(&prediction.judged);
+        left += errors.map(|(y, p)| (y - p).powi(2)).sum::<f64>();
+        all += judged.len() as f64 * rms(judged).powi(2);
+    }
+    if all > 0.0 { 1.0 - left / all } else { 0.0 }
 }
 
 /// Slope of the loop over samples `from..to`, force over displacement \[N/m\]: of the line that

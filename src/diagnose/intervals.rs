@@ -13,6 +13,10 @@ struct Reading {
     log_likelihood: f64,
 }
 
+/// Times a value's own deviation beyond which a refinement is one that the data cannot tell from the law itself, as a third
+/// harmonic whose alias is the fundamental: it says nothing of the law's values.
+const BLIND: f64 = 30.0;
+
 /// Interval of every value of the fit's effects, by effect and parameter; `None` where the data do
 /// not bound it.
 ///
@@ -31,6 +35,7 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
         .iter()
         .fold(0.0_f64, |most, r| most.max(r.log_likelihood));
     let bounds = |effect: usize, parameter: usize| {
+        let own = readings[0].deviations[effect][parameter];
         let parts: Vec<(f64, f64, f64)> = readings
             .iter()
             .map(|r| {
@@ -38,9 +43,8 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
                 let likelihood = (r.log_likelihood - likeliest).exp();
                 (likelihood, r.values[effect][parameter], deviation)
             })
-            .filter(|(_, _, deviation)| deviation.is_finite())
+            .filter(|(_, _, deviation)| deviation.is_finite() && *deviation <= BLIND * own)
             .collect();
-        let own = readings[0].deviations[effect][parameter];
         own.is_finite().then(|| {
             let glossary = &fit.effects[effect].effect.parameters()[parameter];
             let (lower, upper) = mixed(&parts, factor);

@@ -1,12 +1,13 @@
 //! What the records tell of the joint's own parameters, the named causes taken out.
 
 use super::findings::Estimate;
-use super::prepare::rms;
+use super::full_slip::full_slip;
 use crate::identify::initial::initial_stiffness;
 use crate::identify::linearised::{RIGHT_TO, lasting};
 use crate::identify::{Estimated, FamilyFit, Fit, Form, Problem, family, series};
 use crate::joint::{Drive, Joint, VirginCurve};
 use crate::record::Record;
+use crate::record::cycles::rms;
 
 /// Points of the virgin curve that the family starts from.
 const POINTS: usize = 60;
@@ -23,8 +24,8 @@ const FAR: f64 = 1.5;
 /// The stiffness at small amplitude is the dictionary's own ([`initial_stiffness`]). Exponent and loss
 /// are those of the four-parameter family, fitted to the records less what the named causes do in
 /// them. Its slip force, K_T and K_1 follow from the form of its density more than from the
-/// records (intervals made of them held the truth in under half of drawn cases): the largest force is
-/// given as a bound of the slip force, and nothing of the other two.
+/// records (intervals made of them held the truth in under half of drawn cases): the slip force is that at which the joint
+/// went on by itself ([`full_slip`]), else the largest force is given as its bound, and nothing of the other two.
 pub fn joint_parameters(
     problem: &Problem,
     fit: &Fit,
@@ -42,16 +43,17 @@ pub fn joint_parameters(
         .iter()
         .flat_map(|r| &r.force)
         .fold(0.0_f64, |most, f| most.max(f.abs()));
-    let at_least = Estimate {
+    let (value, interval) = full_slip(&records).unwrap_or((largest, (largest, f64::INFINITY)));
+    let slip_force = Estimate {
         name: "slip_force".to_string(),
-        value: largest,
+        value,
         unit: "N".to_string(),
-        interval: Some((largest, f64::INFINITY)),
+        interval: Some(interval),
     };
     let least = left(problem, fit);
     let found = of_family(problem.operators.form, joint, &records, FAR * least);
     let Some(found) = found.filter(|f| f.rms <= OTHER * least) else {
-        estimates.push(at_least);
+        estimates.push(slip_force);
         return (
             estimates,
             Some("No joint of the four-parameter family comes near the joint of any density that these records identify: the exponent of a power law does not describe it.".to_string()),
@@ -71,7 +73,7 @@ pub fn joint_parameters(
             });
         }
     }
-    estimates.push(at_least);
+    estimates.push(slip_force);
     (estimates, None)
 }
 

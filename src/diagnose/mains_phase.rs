@@ -80,7 +80,7 @@ fn begun(
     (frequency, seen): (f64, (f64, f64)),
 ) -> Acting {
     let record = &problem.records[0];
-    let small = SMALL * super::prepare::rms(&record.displacement);
+    let small = SMALL * crate::record::cycles::rms(&record.displacement);
     let of = |size: f64, phase: f64| Acting {
         effect: hum.effect(),
         values: vec![
@@ -158,7 +158,7 @@ fn set_clocks(problem: &mut Problem, lines: &[(f64, f64)], frequency: f64) {
 /// What a fit leaves of each record, in units of its own scatter.
 fn in_scatters(left: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let one = |left: &Vec<f64>| {
-        let scatter = super::prepare::rms(left).max(f64::MIN_POSITIVE);
+        let scatter = crate::record::cycles::rms(left).max(f64::MIN_POSITIVE);
         left.iter().map(|r| r / scatter).collect()
     };
     left.iter().map(one).collect()

@@ -2,11 +2,13 @@
 
 pub mod amplitude_table;
 pub mod bootstrap;
+mod catalogue;
 mod curves;
 mod drive;
 pub mod experiment;
 pub mod findings;
 mod forms;
+mod full_slip;
 pub mod gain;
 mod gridded;
 mod growing;
@@ -29,25 +31,23 @@ pub mod structure;
 mod tested;
 pub mod trials;
 mod verdict;
+mod whereabouts;
 mod words;
 
 pub use experiment::Options;
 pub use findings::Findings;
 
 use drive::without_drive_noise;
-use findings::{Candidate, Estimate, NamedCause, NoiseFinding, Unexplained, Verdict};
+use experiment::dummy::Settled;
+use findings::{NoiseFinding, Unexplained, Verdict};
 use investigation::Investigation;
 use late_events::investigated;
 use prepare::{Bench, form};
 use search::Found;
 use structure::structure;
 
-use rayon::prelude::*;
-
-use crate::causes::{Kind, find};
 use crate::identify::{Fit, Form, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
-use crate::joint::parameters::Parameter;
 use crate::record::Record;
 use crate::record::noise::independence;
 use crate::record::thinned::thinned;
@@ -83,12 +83,12 @@ pub fn diagnose_with(
     let calm = without_drive_noise(form(records), records);
     let Investigation { bench, found } = investigated(&calm, timed, &mut progress);
     progress("measuring the gain on held-out cycles");
-    let (found, said) = match &options.dummy {
+    let settled = match &options.dummy {
         Some(dummy) => experiment::dummy::settle(&bench, found, dummy),
-        None => (found, Vec::new()),
+        None => Settled::without_dummy(found),
     };
-    let (mut findings, found, whole) = assemble(records, &bench, found)?;
-    findings.outlook.dummy = said;
+    let (mut findings, found, whole) = assemble(records, &bench, settled.found, settled.against)?;
+    findings.outlook.dummy = settled.said;
     if calm != records {
         findings.notes.push(
             "The driving channel is noisy: it was smoothed where it is smooth within its noise, which the joint did not feel."
@@ -104,6 +104,9 @@ pub fn diagnose_with(
     experiment::look_ahead(&mut findings, &bench, &found, &whole, timed, options);
     Ok(findings)
 }
+
+/// Share of the judged channel's variance that a joint has to answer to be one, where no repeated cycles tell the noise.
+const FOLLOWS: f64 = 0.5;
 
 /// Samples of all records together beyond which densely sampled cycles are thinned.
 const MANY: usize = 30_000;
@@ -137,6 +140,7 @@ fn assemble(
     records: &[Record],
     bench: &Bench,
     found: Found,
+    against: Vec<String>,
 ) -> Result<(Findings, Found, Fit), JointError> {
     let (found, whole_base) = rayon::join(
         || sober(bench, found).smoothed(bench),
@@ -159,7 +163,13 @@ fn assemble(
     );
     let modelled = whole.predict(&bench.whole);
     let structure_after = structure(&bench.whole, &modelled, &bench.noise);
-    let chi = whole.misfit / bench.whole.rows().max(1) as f64;
+    let follows = gain::follows(bench, &modelled);
+    // Where nothing tells the noise but what is left, a joint that answers nothing leaves "noise" alone.
+    let goes_together = bench.noise_is_repeated() || follows > FOLLOWS;
+    let chi = match goes_together {
+        true => whole.misfit / bench.whole.rows().max(1) as f64,
+        false => f64::INFINITY,
+    };
     let named = !whole.effects.is_empty();
     let timed = records.iter().all(|r| r.time.is_some());
     let of_before = |share: f64| match structure_before.share > 0.0 {
@@ -170,7 +180,8 @@ fn assemble(
     // Noise alone leaves a share as large as its standard error now and then, and beside a small effect
     // that is a large part of it.
     let beyond_noise = of_before(structure_after.share - structure_after.error);
-    let mut doubles = outsiders::doubles(&whole, &modelled);
+    let mut doubles = against;
+    doubles.extend(outsiders::doubles(&whole, &modelled));
     doubles.extend(outsiders::outsiders(bench, &found, timed));
     let verdict = verdict::verdict(
         named.then(|| {
@@ -184,16 +195,19 @@ fn assemble(
         chi,
         probability::unlisted(&found, beyond_noise),
     );
-    let causes = named_causes(bench, &found, &whole);
+    let causes = catalogue::named(bench, &found, &whole);
     let (left, beyond_noise) = match verdict {
         Verdict::Clean => (0.0, 0.0),
         _ => (left, beyond_noise),
     };
-    let candidates = candidates(bench, &found, &before, beyond_noise);
+    let candidates = catalogue::candidates(bench, &found, &before, beyond_noise);
     let joint = exported::joint(&bench.whole.operators, &whole)?;
     let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
-    let mut notes = words::notes(records, bench);
+    let astray = (!goes_together).then(|| words::goes_astray(follows));
+    let mut notes: Vec<String> = astray.into_iter().collect();
+    notes.extend(words::notes(records, bench));
     notes.extend(said);
+    notes.extend(whereabouts::of_jumps(records, &whole.effects));
     let unit = match bench.whole.operators.form {
         Form::Play => "m",
         Form::Stop => "N",
@@ -220,7 +234,7 @@ fn assemble(
             share: left,
             places: match verdict {
                 Verdict::Clean | Verdict::Explained => Vec::new(),
-                _ => words::places(bench, &structure_after),
+                _ => whereabouts::of_structure(records, bench, &structure_after),
             },
             doubles: match verdict {
                 Verdict::Clean => Vec::new(),
@@ -238,94 +252,6 @@ fn assemble(
     findings.next_experiment = words::next_experiment(&findings);
     findings.summary = words::summary(&findings);
     Ok((findings, found, whole))
-}
-
-fn named_causes(bench: &Bench, found: &Found, whole: &Fit) -> Vec<NamedCause> {
-    let intervals = intervals::intervals(&bench.whole, &bench.scale, whole);
-    let mut causes: Vec<NamedCause> = whole
-        .effects
-        .iter()
-        .enumerate()
-        .map(|(e, acting)| {
-            let parameters = acting
-                .effect
-                .parameters()
-                .iter()
-                .zip(&acting.values)
-                .zip(&intervals[e])
-                .map(|((parameter, &value), &interval)| Estimate {
-                    name: parameter.name.to_string(),
-                    value,
-                    unit: parameter.unit.to_string(),
-                    interval,
-                })
-                .collect();
-            NamedCause {
-                name: acting.effect.name().to_string(),
-                kind: kind(acting.effect.name()),
-                parameters,
-                absent: absent(acting.effect.parameters(), &acting.values),
-                ambiguous_with: found.rivals.get(e).cloned().unwrap_or_default(),
-                evidence: found.evidence.get(e).copied().unwrap_or(0.0),
-                matters: gain::share_of_energy(&bench.whole, whole, e),
-            }
-        })
-        .collect();
-    causes.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    causes
-}
-
-/// Names of the refinements of a law that a fit has left out.
-fn absent(parameters: &[Parameter], values: &[f64]) -> Vec<String> {
-    let both = parameters.iter().zip(values);
-    let neutral = both.filter(|(p, v)| p.neutral == Some(**v));
-    neutral.map(|(p, _)| p.name.to_string()).collect()
-}
-
-fn kind(name: &str) -> String {
-    match find(name).map(|c| c.kind()) {
-        Some(Kind::Measurement) => "measurement",
-        _ => "joint",
-    }
-    .to_string()
-}
-
-/// The whole catalogue with evidence, probability (against each other, none and what is not listed)
-/// and what each alone would do to the held-out error.
-fn candidates(
-    bench: &Bench,
-    found: &Found,
-    before: &[crate::identify::Prediction],
-    left: f64,
-) -> Vec<Candidate> {
-    let probabilities = probability::probabilities(found, left);
-    let mut all: Vec<Candidate> = found
-        .trials
-        .par_iter()
-        .zip(probabilities)
-        .map(|(trial, probability)| Candidate {
-            name: trial.cause.name().to_string(),
-            kind: kind(trial.cause.name()),
-            evidence: 0.5 * trial.evidence,
-            probability,
-            lambda_sep: None,
-            held_out_gain: (trial.evidence > 0.0)
-                .then(|| gain::ratio(bench, before, &trial.fit.predict(&bench.train)).0),
-        })
-        .collect();
-    for cause in crate::causes::CATALOGUE {
-        if !all.iter().any(|c| c.name == cause.name()) {
-            all.push(Candidate {
-                name: cause.name().to_string(),
-                kind: kind(cause.name()),
-                evidence: 0.0,
-                probability: 0.0,
-                lambda_sep: None,
-                held_out_gain: None,
-            });
-        }
-    }
-    all
 }
 
 fn noise(bench: &Bench, unit: &str) -> NoiseFinding {

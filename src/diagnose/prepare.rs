@@ -7,10 +7,12 @@ use crate::causes::Scale;
 use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::cycles::span;
+use crate::record::calm::fastest;
+use crate::record::cycles::{rms, span};
 use crate::record::mains::{beneath_mains, without_lines};
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::repeats::{from_repeats, from_steady_changes};
+use crate::record::resolution::resolution;
 use crate::record::split::{held_out, held_out_before_the_end};
 
 /// Records ready for the search.
@@ -28,6 +30,8 @@ pub struct Bench {
     pub struck: Vec<Vec<bool>>,
     /// Noise of the judged channel per record.
     pub noise: Vec<Noise>,
+    /// Least deviation that noise of that channel is taken for, per record: what it resolves.
+    pub resolution: Vec<f64>,
     /// Sizes for the starts of the search.
     pub scale: Scale,
     /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
@@ -61,16 +65,20 @@ pub fn form(records: &[Record]) -> Form {
                 Some(time) => beneath_mains(time, channel),
                 None => from_differences(channel),
             };
-            let fast = fast.deviation;
+            // Nor is what a few samples of a smooth channel bend by.
+            let fast = fast.deviation.min(fastest(channel));
             let repeated = from_repeats(&record.force, channel)
                 .or_else(|| from_repeats(&record.displacement, channel));
             // What drifts or jumps from cycle to cycle is no noise; what is sharp in every cycle neither.
-            repeated.map_or(fast, |noise| noise.deviation.min(fast)) / rms(channel)
+            let noise = repeated.map_or(fast, |noise| noise.deviation.min(fast));
+            // What repeats to the last digit was still read by a converter.
+            noise.max(resolution(channel)) / rms(channel)
         };
         force += noise(&record.force);
         displacement += noise(&record.displacement);
     }
-    if displacement >= force {
+    // Of two that show no noise at all neither is the more.
+    if displacement >= force * (1.0 - f64::EPSILON.sqrt()) {
         Form::Play
     } else {
         Form::Stop
@@ -115,7 +123,14 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
     if records.iter().all(|r| r.time.is_some()) {
         mains_phase::align(&mut whole, &first);
     }
-    let noise = noise(&whole, &first);
+    let resolution: Vec<f64> = records
+        .iter()
+        .map(|record| match form {
+            Form::Play => resolution(&record.displacement),
+            Form::Stop => resolution(&record.force),
+        })
+        .collect();
+    let noise = noise(&whole, &first, &resolution);
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
@@ -128,6 +143,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         end_is_fitted: false,
         struck,
         noise: Vec::new(),
+        resolution,
         scale,
         unsure: vec![0; records.len()],
     };
@@ -179,12 +195,20 @@ impl Bench {
             .any(|n| !n.repeated && n.autoregression > SLOW)
     }
 
+    /// True where a record shows less noise than its channel resolves: what laws are wrong by is seen beside it.
+    pub fn is_finer_than_read(&self, record: usize) -> bool {
+        self.noise[record].deviation <= self.resolution[record]
+    }
+
     /// Largest mean whitened square that a model without error may leave, where repeated cycles gave
-    /// the noise: one, what the estimate of the noise's variance scatters by, and what laws that are
+    /// the noise, and it is no finer than its channel: one, what the estimate of the noise's variance scatters by, and what laws that are
     /// only nearly right may leave.
     ///
     /// `n` samples of correlation `a` tell a variance to `√(2 (1 + a²) / ((1 − a²) n))` of itself.
     pub fn most_left(&self) -> Option<f64> {
+        if (0..self.noise.len()).any(|k| self.is_finer_than_read(k)) {
+            return None;
+        }
         let independent: f64 = self
             .noise
             .iter()
@@ -232,10 +256,9 @@ impl Bench {
                 if self.noise[k].repeated {
                     return self.noise[k];
                 }
-                let (_, judged) = self.whole.channels(k);
                 let noise = from_residual(&residuals[k]);
                 Noise {
-                    deviation: noise.deviation.max(1e-9 * rms(judged)),
+                    deviation: noise.deviation.max(self.resolution[k]),
                     ..noise
                 }
             })
@@ -260,7 +283,7 @@ fn fitted(mut problem: Problem) -> (Problem, Fit) {
 
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
 /// by the other records, else from the fastest variations of the baseline's residual.
-fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
+fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
     let mut residuals = first.residuals(problem);
     // A hum does not repeat with the cycles and is no noise.
     let hums = mains_phase::loudest_mains(problem, first);
@@ -288,23 +311,14 @@ fn noise(problem: &Problem, first: &Fit) -> Vec<Noise> {
         .zip(&residuals)
         .enumerate()
         .map(|(k, (own, residual))| {
-            let (_, judged) = problem.channels(k);
             // Noise leaves at least itself after any fit: an estimate above what the baseline
             // leaves holds a change of the response from cycle to cycle.
             let most = 1.2 * rms(residual);
             let own = own.filter(|n| n.deviation <= most);
             let lent = lent.filter(|n| n.deviation <= most);
-            let floor = 1e-9 * rms(judged);
             let mut noise = own.or(lent).unwrap_or_else(|| from_differences(residual));
-            noise.deviation = noise.deviation.max(floor);
+            noise.deviation = noise.deviation.max(least[k]);
             noise
         })
         .collect()
-}
-
-/// Root mean square about the mean.
-pub fn rms(values: &[f64]) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }

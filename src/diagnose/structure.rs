@@ -47,6 +47,9 @@ pub struct Place {
     pub from: usize,
     /// Last sample.
     pub to: usize,
+    /// First sample and the one behind the last of the part of the cycle that the bin holds, in the first of its cycles;
+    /// `None` where it holds all samples between its first and its last.
+    pub part: Option<(usize, usize)>,
     /// Share of the structured variance in this bin.
     pub share: f64,
 }
@@ -69,7 +72,9 @@ pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise])
     let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
     let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
     let told: Vec<bool> = noise.iter().map(|n| !n.repeated).collect();
-    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, (&a, &told)));
+    let quiet = quiet_part(noise);
+    let [taken, alike] =
+        [known, most].map(|a| whitened_by(problem, predictions, (&a, &told, quiet)));
     Structure {
         significance: taken.significance.min(alike.significance),
         ringing: taken.ringing.min(alike.ringing),
@@ -77,10 +82,26 @@ pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise])
     }
 }
 
+/// Part of the noise's variance below which what scatters is no concern: a tenth in rms.
+const QUIET: f64 = 0.01;
+
+/// That part of the least innovation of any record: beside less scatter than that structure is nothing that matters.
+fn quiet_part(noise: &[Noise]) -> f64 {
+    let innovations = noise
+        .iter()
+        .map(|n| n.deviation.powi(2) * (1.0 - n.autoregression.powi(2)));
+    let least = innovations.fold(f64::INFINITY, f64::min);
+    if least.is_finite() {
+        QUIET * least
+    } else {
+        0.0
+    }
+}
+
 fn whitened_by(
     problem: &Problem,
     predictions: &[Prediction],
-    (alike, told): (&[f64], &[bool]),
+    (alike, told, least): (&[f64], &[bool], f64),
 ) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
     let mut correlations: Vec<f64> = Vec::new();
@@ -101,8 +122,19 @@ fn whitened_by(
             ringing = lags.fold(ringing, f64::max);
         }
         for (from, to, phases) in pieces(input) {
-            let mut own = vec![Bin::new(k, from, to); phases];
-            for (start, end) in cuts(input, from, to) {
+            let cuts = cuts(input, from, to);
+            let mut own: Vec<Bin> = (0..phases)
+                .map(|phase| {
+                    let (start, end) = cuts[0];
+                    let at = |phase: usize| start + (phase * (end - start)).div_ceil(phases);
+                    let part = (at(phase), at(phase + 1));
+                    match cuts.len() {
+                        1 => Bin::new(k, part, None),
+                        _ => Bin::new(k, (from, to), Some(part)),
+                    }
+                })
+                .collect();
+            for (start, end) in cuts {
                 for i in (start..end).filter(|&i| record.counts(i)) {
                     let phase = (i - start) * phases / (end - start).max(1);
                     own[phase.min(phases - 1)].add(white[i]);
@@ -118,7 +150,7 @@ fn whitened_by(
         .map(|b| b.square - b.sum * b.sum / b.count)
         .sum();
     let free = (total - bins.len() as f64).max(1.0);
-    let variance = within / free;
+    let variance = (within / free).max(least);
     let correlation = correlations.iter().fold(0.0_f64, |most, c| most.max(*c));
     if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
@@ -148,6 +180,7 @@ fn whitened_by(
             record: b.record,
             from: b.from,
             to: b.to,
+            part: b.part,
             share: stands_out(b) / all,
         })
         .collect();
@@ -214,17 +247,19 @@ struct Bin {
     record: usize,
     from: usize,
     to: usize,
+    part: Option<(usize, usize)>,
     count: f64,
     sum: f64,
     square: f64,
 }
 
 impl Bin {
-    fn new(record: usize, from: usize, to: usize) -> Bin {
+    fn new(record: usize, (from, to): (usize, usize), part: Option<(usize, usize)>) -> Bin {
         Bin {
             record,
             from,
             to,
+            part,
             count: 0.0,
             sum: 0.0,
             square: 0.0,

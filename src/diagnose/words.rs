@@ -1,11 +1,12 @@
 //! What a diagnosis says in words.
 
 use super::findings::{Findings, Verdict};
+use super::full_slip::full_slip;
 use super::prepare::{Bench, compliance_ratio};
-use super::structure::Structure;
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
 use crate::record::Record;
+use crate::record::resolution::step;
 use crate::record::written::quantity;
 
 /// The verdict in a sentence or two.
@@ -62,32 +63,11 @@ fn partly(names: &str, ratio: f64, interval: Option<(f64, f64)>) -> String {
     }
 }
 
-/// Where structure is left, the strongest bins first.
-pub fn places(bench: &Bench, structure: &Structure) -> Vec<String> {
-    structure
-        .places
-        .iter()
-        .filter(|p| p.share > 0.01)
-        .map(|p| {
-            let record = &bench.whole.records[p.record];
-            let (from, to) = (
-                record.time[p.from],
-                record.time[p.to.min(record.time.len() - 1)],
-            );
-            format!(
-                "record {}, {from:.4} to {to:.4} s: {:.0} % of the structure",
-                record.name,
-                100.0 * p.share
-            )
-        })
-        .collect()
-}
-
 /// What these records cannot show.
 pub fn not_identifiable(records: &[Record]) -> Vec<String> {
     let mut sentences = Vec::new();
     let deepest = records.iter().map(compliance_ratio).fold(1.0_f64, f64::max);
-    if deepest < 4.0 {
+    if deepest < 4.0 && full_slip(records).is_none() {
         sentences.push(format!(
             "Full slip was not approached (largest over smallest secant compliance {deepest:.1}): the slip force F_S and the ratio beta are not bounded from above by these records."
         ));
@@ -116,6 +96,9 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if bench.whole.wears_on {
         notes.push("Wear goes on from record to record: they were taken for tests of one joint after the other, in the order given.".to_string());
     }
+    for (k, record) in records.iter().enumerate() {
+        notes.extend(finer_than_read(record, k, bench));
+    }
     for ((record, struck), prepared) in records.iter().zip(&bench.struck).zip(&bench.whole.records)
     {
         let count = struck.iter().filter(|s| **s).count();
@@ -133,6 +116,34 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// What the noise of a record was taken for, where the record shows less than its channel resolves.
+fn finer_than_read(record: &Record, k: usize, bench: &Bench) -> Option<String> {
+    if !bench.is_finer_than_read(k) {
+        return None;
+    }
+    let (channel, unit, judged) = match bench.whole.operators.form {
+        Form::Play => ("displacement", "m", &record.displacement),
+        Form::Stop => ("force", "N", &record.force),
+    };
+    let why = match step(judged) {
+        Some(step) => format!("is read in steps of {}", quantity(step, unit)),
+        None => "shows less noise than a ten-thousandth of itself".to_string(),
+    };
+    Some(format!(
+        "Record {}: the {channel} {why}; its noise was taken for {} rms.",
+        record.name,
+        quantity(bench.noise[k].deviation, unit)
+    ))
+}
+
+/// What is said where the two channels hardly go together.
+pub fn goes_astray(follows: f64) -> String {
+    format!(
+        "The best joint answers {:.0} % of the judged channel's variance: see that the columns are those of one test, in their order and at one time.",
+        100.0 * follows.max(0.0)
+    )
 }
 
 /// How a record begins, where that is not with a virgin joint at the zero of what drives it.

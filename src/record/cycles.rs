@@ -155,6 +155,13 @@ pub fn turning_points(channel: &[f64], band: f64) -> Vec<usize> {
     turns
 }
 
+/// Root mean square about the mean.
+pub fn rms(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

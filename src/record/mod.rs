@@ -8,6 +8,7 @@ pub mod noise;
 pub mod outliers;
 pub mod peaks;
 pub mod repeats;
+pub mod resolution;
 pub mod ringing;
 mod spectrum;
 pub mod split;

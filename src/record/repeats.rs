@@ -11,6 +11,17 @@ use super::peaks::between;
 /// `s` the sum of squares of the interpolation weights. `None` where fewer than 150 samples lie in
 /// such triples.
 pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
+    either_way(drive, |drive| repeats(drive, response))
+}
+
+/// What cycles that begin on the way up tell, else those that begin on the way down: where blocks begin downwards, the
+/// first and the last cycle upwards of each lie in two of them.
+fn either_way(drive: &[f64], told: impl Fn(&[f64]) -> Option<Noise>) -> Option<Noise> {
+    let downwards = || drive.iter().map(|x| -x).collect::<Vec<_>>();
+    told(drive).or_else(|| told(&downwards()))
+}
+
+fn repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
     let found = cycles(drive);
     let kinked = kinked(drive);
     let differences = |triple: &[Cycle], settled: bool| {
@@ -42,6 +53,10 @@ pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
 /// The lowest order is taken beyond which the noise falls no more. `None` where there is no such order, or
 /// where fewer than 150 samples tell it.
 pub fn from_steady_changes(drive: &[f64], response: &[f64]) -> Option<Noise> {
+    either_way(drive, |drive| steady_changes(drive, response))
+}
+
+fn steady_changes(drive: &[f64], response: &[f64]) -> Option<Noise> {
     let found = cycles(drive);
     let kinked = kinked(drive);
     let settled = found.get(1..)?;

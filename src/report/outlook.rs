@@ -55,6 +55,20 @@ pub(super) fn dummy(findings: &Findings) -> Vec<String> {
         .collect()
 }
 
+/// What the learned correction does, in a sentence; none where there is none.
+pub(super) fn correction_sentence(findings: &Findings) -> Vec<String> {
+    let correction = findings.outlook.correction.as_ref();
+    let sentence = correction.map(|correction| {
+        format!(
+            "What no cause explains can be predicted in part from the record itself: added to the model it takes the error on unseen data to {} (95 %: {} to {}). It names nothing and enters no joint.",
+            percent(correction.ratio),
+            percent(correction.interval.0),
+            percent(correction.interval.1),
+        )
+    });
+    sentence.into_iter().collect()
+}
+
 /// The learned correction.
 pub(super) fn correction(findings: &Findings) -> Option<Value> {
     let correction = findings.outlook.correction.as_ref()?;
@@ -62,12 +76,7 @@ pub(super) fn correction(findings: &Findings) -> Option<Value> {
         context! { feature, size => quantity(*size, &correction.unit) }
     });
     Some(context! {
-        sentence => format!(
-            "What no cause explains can be predicted in part from the record itself: added to the model it takes the error on unseen data to {} (95 %: {} to {}). It names nothing and enters no joint.",
-            percent(correction.ratio),
-            percent(correction.interval.0),
-            percent(correction.interval.1),
-        ),
+        sentence => correction_sentence(findings).concat(),
         terms => terms.collect::<Vec<_>>(),
     })
 }

@@ -1,5 +1,6 @@
 //! What the engineer reads on the screen: fixed sections, the verdict first, a screenful at most.
 
+use super::outlook;
 use super::quantity::estimate;
 use super::wording;
 use crate::diagnose::Findings;
@@ -22,6 +23,8 @@ pub fn render(findings: &Findings) -> String {
     sections.extend([
         gain(findings),
         left(findings),
+        sentences("Dummy", &outlook::dummy(findings)),
+        sentences("Correction", &outlook::correction_sentence(findings)),
         joint(findings),
         sentences("Cannot show", &findings.not_identifiable),
         next(findings),

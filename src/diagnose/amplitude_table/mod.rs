@@ -169,7 +169,7 @@ impl<'a> Search<'a> {
                 let evidence = trial.map_or(0.0, penalised);
                 Candidate {
                     name: cause.name().to_string(),
-                    kind: super::kind(cause.name()),
+                    kind: super::catalogue::kind(cause.name()),
                     evidence,
                     probability: trial.map_or(0.0, |_| (evidence - highest).exp() / total),
                     lambda_sep: None,
@@ -223,9 +223,9 @@ impl<'a> Search<'a> {
                 .collect();
             NamedCause {
                 name: shown.name().to_string(),
-                kind: super::kind(shown.name()),
+                kind: super::catalogue::kind(shown.name()),
                 parameters: exported::estimates(*shown, &values, &spread),
-                absent: super::absent(exported::glossary(*shown), &values),
+                absent: super::catalogue::absent(exported::glossary(*shown), &values),
                 ambiguous_with: rivals.clone(),
                 evidence: *fall,
                 matters: (1.0 - loss(&without) / whole).abs(),

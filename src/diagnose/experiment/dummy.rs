@@ -11,6 +11,7 @@ use crate::joint::effect::Acting;
 use crate::record::Record;
 use crate::record::noise::from_differences;
 use crate::record::repeats::from_repeats;
+use crate::record::resolution::resolution;
 
 /// What a dummy says of one cause of the measuring chain.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,9 +66,8 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
     let (input, judged) = problem.channels(0);
     let residual = &fit.residuals(&problem)[0];
     let noise = from_repeats(input, judged).unwrap_or_else(|| from_differences(residual));
-    let largest = judged.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let a = noise.autoregression;
-    let innovation = noise.deviation.max(1e-9 * largest) * (1.0 - a * a).sqrt();
+    let innovation = noise.deviation.max(resolution(judged)) * (1.0 - a * a).sqrt();
     let record = &mut problem.records[0];
     record.autoregression = a;
     record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
@@ -102,12 +102,36 @@ fn examine(problem: &Problem, plain: &Fit, cause: &'static dyn Cause, acting: &A
     }
 }
 
-/// Settles ambiguous names by the dummy: a cause of the chain that it shows is named, one that it
-/// would have shown and does not is taken off.
-pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> (Found, Vec<Dummy>) {
+/// What a dummy settles.
+pub struct Settled {
+    /// The set, with names that the dummy excludes taken off.
+    pub found: Found,
+    /// What the dummy says of each cause of the chain that was in question.
+    pub said: Vec<Dummy>,
+    /// Where the dummy speaks against a cause that stays named, one clause each.
+    pub against: Vec<String>,
+}
+
+impl Settled {
+    /// What was found, where nobody measured a dummy.
+    pub fn without_dummy(found: Found) -> Settled {
+        Settled {
+            found,
+            said: Vec::new(),
+            against: Vec::new(),
+        }
+    }
+}
+
+/// Part of what a named cause brings that another has to bring to take its place where a dummy excludes it.
+const MOST_OF_IT: f64 = 0.5;
+
+/// Settles ambiguous names by the dummy: a cause of the chain that it shows is named, one that it would have shown and
+/// does not is taken off. Where it takes off all that were as good, whoever of the others does most of the work is named;
+/// where nobody does, the name stays, and that the dummy speaks against it is said.
+pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
     let (problem, plain) = spring(bench, dummy);
-    let mut found = found;
-    let mut said = Vec::new();
+    let (mut found, mut said, mut against) = (found, Vec::new(), Vec::new());
     for place in 0..found.best.effects.len() {
         let named = found.best.effects[place].clone();
         let mut set: Vec<String> = vec![named.effect.name().to_string()];
@@ -115,42 +139,78 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> (Found, Vec<Dummy>
         let mut others = found.best.effects.clone();
         others.remove(place);
         // Every member with its values in the records.
-        let members: Vec<(&'static dyn Cause, Fit)> = set
+        let mut members: Vec<Member> = set
             .iter()
             .filter_map(|name| find(name))
             .filter_map(|cause| Some((cause, in_place(bench, &found, &others, place, cause)?)))
             .collect();
-        let mut shown: Vec<String> = Vec::new();
-        let mut excluded: Vec<String> = Vec::new();
-        for (cause, fit) in members.iter().filter(|m| m.0.kind() == Kind::Measurement) {
-            let acting = fit.effect(cause.name());
-            let Some(acting) = acting else { continue };
-            let ruling = examine(&problem, &plain, *cause, acting);
-            match ruling.ruling {
-                Ruling::Shown => shown.push(ruling.name.clone()),
-                Ruling::Excluded => excluded.push(ruling.name.clone()),
-                Ruling::Open => {}
-            }
-            said.push(ruling);
+        let as_good = members.len();
+        if found.best.effects.len() == 1 {
+            members.extend(less_good(&found, &set));
         }
-        let stays = |name: &str| match shown.is_empty() {
-            true => !excluded.iter().any(|e| e == name),
-            false => shown.iter().any(|s| s == name),
+        let rulings = members.iter().map(|(cause, fit)| {
+            let acting = fit.effect(cause.name());
+            let acting = acting.filter(|_| cause.kind() == Kind::Measurement)?;
+            Some(examine(&problem, &plain, *cause, acting))
+        });
+        let rulings: Vec<Option<Dummy>> = rulings.collect();
+        let is = |member: usize, ruling: Ruling| {
+            let ruled = rulings[member].as_ref();
+            ruled.is_some_and(|r| r.ruling == ruling)
         };
-        let left: Vec<&(&'static dyn Cause, Fit)> =
-            members.iter().filter(|m| stays(m.0.name())).collect();
-        let best = left.iter().min_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit));
-        let Some((cause, fit)) = best else { continue };
+        let shown = (0..as_good).any(|m| is(m, Ruling::Shown));
+        let stays = |member: &usize| match shown {
+            true => is(*member, Ruling::Shown),
+            false => !is(*member, Ruling::Excluded),
+        };
+        let misfit = |member: &usize| members[*member].1.misfit;
+        let least = |a: &usize, b: &usize| misfit(a).total_cmp(&misfit(b));
+        let left: Vec<usize> = (0..as_good).filter(stays).collect();
+        let best = left.iter().copied().min_by(least);
+        let best = best.or_else(|| (as_good..members.len()).filter(stays).min_by(least));
+        said.extend(
+            rulings
+                .iter()
+                .take(best.map_or(as_good, |b| as_good.max(b + 1)))
+                .flatten()
+                .cloned(),
+        );
+        let Some(best) = best else {
+            against.push(format!(
+                "{}: the dummy would have shown it and does not",
+                named.effect.name()
+            ));
+            continue;
+        };
+        let (cause, fit) = &members[best];
         if cause.name() != named.effect.name() {
             found.best = fit.clone();
         }
-        let rivals = left.iter().map(|m| m.0.name().to_string());
-        let rivals = rivals.filter(|name| name != cause.name()).collect();
+        let rivals = left.iter().filter(|m| **m != best);
+        let rivals = rivals.map(|m| members[*m].0.name().to_string()).collect();
         if let Some(list) = found.rivals.get_mut(place) {
             *list = rivals;
         }
     }
-    (found, said)
+    Settled {
+        found,
+        said,
+        against,
+    }
+}
+
+/// A cause, and the joint refit with it in the place in question.
+type Member = (&'static dyn Cause, Fit);
+
+/// Causes that were tried alone and do most of what the named one does, without those of the set.
+fn less_good(found: &Found, set: &[String]) -> Vec<Member> {
+    let brought = found.baseline.misfit - found.best.misfit;
+    let enough = found.baseline.misfit - MOST_OF_IT * brought;
+    let others = found.trials.iter().filter(|t| {
+        let asked = !set.iter().any(|name| name == t.cause.name());
+        asked && t.plausible && t.own().is_some() && t.fit.misfit < enough
+    });
+    others.map(|t| (t.cause, t.fit.clone())).collect()
 }
 
 /// The joint refit with the cause in the named one's place, effects in the same order.

@@ -1,9 +1,10 @@
 //! From open questions to the next experiment, or to why there is none.
 
+use super::Options;
 use super::design::{
     BLOCKS, BLOCKS_TO_SHOW, Chosen, Design, Question, Standing, least, program, refitted,
 };
-use super::limits::{Limits, rigs};
+use super::limits::rigs;
 use super::separability::{Map, TOLD};
 use crate::causes::{Cause, Kind, find};
 use crate::diagnose::findings::Findings;
@@ -87,7 +88,7 @@ pub fn next(
     map: &Map,
     known: &[(&'static dyn Cause, Acting)],
     whole: &Fit,
-    limits: &Limits,
+    options: &Options,
 ) -> Option<Experiment> {
     // Without time there is no rate to prescribe.
     let open = ambiguous(findings, known);
@@ -99,7 +100,7 @@ pub fn next(
     let rows = bench.whole.rows() as f64;
     let design = Design::new(problem, &whole.coefficients, &questions, rows, &bench.scale);
     let most = if named { BLOCKS } else { BLOCKS_TO_SHOW };
-    let chosen = design.choose(&rigs(bench, limits), most);
+    let chosen = design.choose(&rigs(bench, &options.limits), most);
     let mut causes: Vec<String> = Vec::new();
     for question in &questions {
         for name in [question.cause.name(), &question.rival] {
@@ -121,7 +122,7 @@ pub fn next(
     let needed = after.map_or(f64::NAN, |s| s.needed);
     let lambda = |standing: Option<Standing>| standing.map_or(f64::NAN, |s| s.lambda);
     let (before, after) = (lambda(before), lambda(after));
-    let instead = (!settles).then(|| instead(&causes));
+    let instead = (!settles).then(|| instead(&causes, options.dummy.is_some()));
     let (blocks, time, values) = match chosen {
         None => (Vec::new(), Vec::new(), Vec::new()),
         Some(chosen) => {
@@ -197,11 +198,12 @@ fn refits(
 }
 
 /// What would settle it, where no program does.
-fn instead(causes: &[String]) -> String {
+fn instead(causes: &[String], dummy_is_there: bool) -> String {
     let is = |name: &String, kind: Kind| find(name).is_some_and(|c| c.kind() == kind);
     let chain = causes.iter().any(|c| is(c, Kind::Measurement));
     let joint = causes.iter().any(|c| is(c, Kind::Joint));
     match (chain, joint) {
+        (true, _) if dummy_is_there => "a second displacement sensor of another kind would, or more force or rate (--limit-force, --limit-rate).".to_string(),
         (true, true) => "a monolithic dummy measured through the same chain would tell the joint from the chain (--dummy FILE), and so would a second displacement sensor of another kind, or more force or rate (--limit-force, --limit-rate).".to_string(),
         (true, false) => "a monolithic dummy measured through the same chain (--dummy FILE) or a second sensor of another kind would.".to_string(),
         _ => "more force, more rate or more time would (--limit-force, --limit-rate, --limit-duration), or a second sensor at the slipping faces.".to_string(),

@@ -49,15 +49,7 @@ pub fn look_ahead(
     let experiment = match timed {
         // Without time there is no rate to prescribe.
         false => None,
-        true => next(
-            findings,
-            bench,
-            &problem,
-            &map,
-            &known,
-            whole,
-            &options.limits,
-        ),
+        true => next(findings, bench, &problem, &map, &known, whole, options),
     };
     if let Some(experiment) = &experiment {
         findings.next_experiment = Some(experiment.description.clone());

@@ -11,10 +11,10 @@ use super::gram::Gram;
 use super::shape::{Shape, columns, products, shapes};
 use crate::causes::{Cause, Scale};
 use crate::diagnose::gain::energy;
-use crate::diagnose::prepare::rms;
 use crate::identify::Problem;
 use crate::joint::effect::Acting;
 use crate::record::cycles::cycles;
+use crate::record::cycles::rms;
 
 /// χ² from which on two causes are told apart safely: at 25 a likelihood ratio of exp(−12).
 pub const TOLD: f64 = 25.0;
