@@ -10,17 +10,27 @@ use rayon::prelude::*;
 /// Of the scores behind the first `count` the best of every form that those before it do not have: which of several
 /// forms a law takes, first order tells less well than its size.
 pub(super) fn of_other_forms(scores: &[Score], count: usize) -> impl Iterator<Item = &Score> {
-    let form = |s: &Score| {
-        s.acting
-            .values
-            .iter()
-            .map(|v| *v != 0.0)
-            .collect::<Vec<_>>()
-    };
     let behind = scores.iter().enumerate().skip(count);
     behind
         .filter(move |(i, s)| scores[..*i].iter().all(|before| form(before) != form(s)))
         .map(|(_, s)| s)
+}
+
+/// The form of a law that a score begins with: which of its values are not zero.
+fn form(score: &Score) -> Vec<bool> {
+    score.acting.values.iter().map(|v| *v != 0.0).collect()
+}
+
+/// Scores sorted into forms, these and theirs in the order given.
+pub(super) fn by_form<'a>(scores: &[&'a Score]) -> Vec<Vec<&'a Score>> {
+    let mut forms: Vec<Vec<&Score>> = Vec::new();
+    for score in scores {
+        match forms.iter_mut().find(|own| form(own[0]) == form(score)) {
+            Some(own) => own.push(score),
+            None => forms.push(vec![score]),
+        }
+    }
+    forms
 }
 
 /// Causes that were tried beside a set, each in its likeliest form that acts at another place than the one that did
@@ -78,5 +88,8 @@ mod tests {
         let falls: Vec<f64> = of_other_forms(&scores, 2).map(|s| s.fall).collect();
         assert_eq!(falls, [6.0, 4.0]);
         assert_eq!(of_other_forms(&scores, 6).count(), 0);
+        let all: Vec<&Score> = scores.iter().collect();
+        let sizes: Vec<usize> = by_form(&all).iter().map(Vec::len).collect();
+        assert_eq!(sizes, [3, 2, 1]);
     }
 }

@@ -15,7 +15,7 @@ mod growing;
 pub mod intervals;
 mod investigation;
 pub mod joint_parameters;
-mod late_events;
+
 pub mod left_out;
 pub mod levels;
 mod mains_phase;
@@ -30,6 +30,7 @@ mod striking;
 pub mod structure;
 mod tested;
 pub mod trials;
+mod unseen_events;
 mod verdict;
 mod whereabouts;
 mod words;
@@ -41,10 +42,10 @@ use drive::without_drive_noise;
 use experiment::dummy::Settled;
 use findings::{NoiseFinding, Unexplained, Verdict};
 use investigation::Investigation;
-use late_events::investigated;
 use prepare::{Bench, form};
 use search::Found;
 use structure::structure;
+use unseen_events::investigated;
 
 use crate::identify::{Fit, Form, baseline, exported, refit, smoothed};
 use crate::joint::JointError;

@@ -13,7 +13,7 @@ use crate::record::mains::{beneath_mains, without_lines};
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::resolution::resolution;
-use crate::record::split::{held_out, held_out_before_the_end};
+use crate::record::split::{Fitted, held_out_elsewhere};
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -24,8 +24,8 @@ pub struct Bench {
     pub train: Problem,
     /// Held-out marks per record.
     pub held: Vec<Vec<bool>>,
-    /// True where they leave the end of the records to the fit.
-    pub end_is_fitted: bool,
+    /// What they leave to the fit that is set aside as a rule.
+    pub fitted: Fitted,
     /// Samples that stand alone, per record: replaced by what their neighbours say, and no witness.
     pub struck: Vec<Vec<bool>>,
     /// Noise of the judged channel per record.
@@ -132,7 +132,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         .collect();
     let noise = noise(&whole, &first, &resolution);
     let held: Vec<Vec<bool>> = (0..whole.records.len())
-        .map(|k| held_out(whole.channels(k).0))
+        .map(|k| held_out_elsewhere(whole.channels(k).0, Fitted::default()))
         .collect();
     let scale = sizes(&whole, &first);
     let train = whole.clone();
@@ -140,7 +140,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         whole,
         train,
         held,
-        end_is_fitted: false,
+        fitted: Fitted::default(),
         struck,
         noise: Vec::new(),
         resolution,
@@ -169,12 +169,12 @@ impl Bench {
         self.train.wears_on = true;
     }
 
-    /// Sets cycles aside from before the end of the records from now on.
-    pub fn fit_the_end(&mut self) {
+    /// Sets other cycles aside from now on, so that the fit sees what it has to.
+    pub fn fit_also(&mut self, fitted: Fitted) {
         for (k, held) in self.held.iter_mut().enumerate() {
-            *held = held_out_before_the_end(self.whole.channels(k).0);
+            *held = held_out_elsewhere(self.whole.channels(k).0, fitted);
         }
-        self.end_is_fitted = true;
+        self.fitted = fitted;
         self.weigh(self.noise.clone());
     }
 

@@ -4,13 +4,14 @@
 use super::gain::ratio;
 use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
-use super::trials::all_plausible;
+use super::trials::{ALARM, all_plausible, dispersion};
 use crate::identify::{Fit, refit};
 use crate::record::noise::independence;
 
 /// The set without the causes that gain nothing on held-out data.
 ///
-/// A single cause has to lower the held-out error or most of the misfit. Every one of several has to
+/// A single cause has to lower the held-out error or most of the misfit, and where it is not evident, the error beyond its
+/// scatter (95 % interval of the bootstrap). Every one of several has to
 /// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
 /// causes, the more ways to mend by one what another's law is wrong about. One that takes most of
 /// the misfit away, and a substantial part of the baseline's, stays: what happens once, or at one rate,
@@ -45,12 +46,23 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    if fit.effects.is_empty() || Prospect::of(bench, baseline, &fit).holds() {
+    let evidence = (baseline.misfit - fit.misfit) / dispersion(&bench.train, &fit);
+    let proven = || {
+        let both = [baseline, &fit].map(|f| f.predict(&bench.train));
+        let (_, interval) = ratio(bench, &both[0], &both[1]);
+        interval.is_none_or(|(_, upper)| upper < 1.0)
+    };
+    let holds = || Prospect::of(bench, baseline, &fit).holds() && (evidence > EVIDENT || proven());
+    if fit.effects.is_empty() || holds() {
         fit
     } else {
         baseline.clone()
     }
 }
+
+/// Fall of the misfit from which a cause needs no gain on held-out samples that is beyond their scatter: what is that
+/// evident and not seen there happens elsewhere.
+const EVIDENT: f64 = 3.0 * ALARM;
 
 /// Standard deviations that count as certain.
 const CERTAIN: f64 = 3.0;

@@ -1,7 +1,7 @@
 //! Every cause tried beside a current set: scored at its vanishing size, the promising ones refitted
 //! jointly with the baseline.
 
-use super::forms::of_other_forms;
+use super::forms::{by_form, of_other_forms};
 use super::refinements::refined;
 use rayon::prelude::*;
 
@@ -156,22 +156,41 @@ pub fn trials_of(
         if !begun.iter().any(|s| sticks(&s.acting)) {
             begun.extend(scores.iter().find(|s| unforetold(s)));
         }
-        let fit = begun.into_iter().fold(current.clone(), |best, s| {
-            let mut effects = current.effects.clone();
-            effects.push(s.acting.clone());
-            // A second shape has to do better than the first.
-            let bound = match best.effects.len() > current.effects.len() {
-                true => bound.min(best.misfit),
-                false => bound,
+        // What a form is worth is known when its refinements are: a cube that hardens holds only as far as it levels off.
+        let of_form = |before: Option<Trial>, form: &[&Score]| {
+            let unrefined = UNREFINED
+                * before
+                    .as_ref()
+                    .map_or(0.0, |b| current.misfit - b.fit.misfit);
+            let bound = before
+                .as_ref()
+                .map_or(bound, |b| bound.min(b.fit.misfit + unrefined));
+            let fit = form.iter().fold(current.clone(), |best, s| {
+                let mut effects = current.effects.clone();
+                effects.push(s.acting.clone());
+                // A second shape has to do better than the first.
+                let bound = match best.effects.len() > current.effects.len() {
+                    true => bound.min(best.misfit),
+                    false => bound,
+                };
+                let fit = refit_below(problem, current, effects, bound);
+                if fit.misfit < best.misfit { fit } else { best }
+            });
+            let fit = match fit.misfit < bound {
+                true => refined((problem, scale), *cause, current.misfit, fit),
+                false => fit,
             };
-            let fit = refit_below(problem, current, effects, bound);
-            if fit.misfit < best.misfit { fit } else { best }
-        });
-        let fit = match fit.misfit < bound {
-            true => refined((problem, scale), *cause, current.misfit, fit),
-            false => fit,
+            let trial = Trial::of((problem, scale), *cause, current, fit);
+            match before.filter(|b| b.evidence >= trial.evidence || trial.own().is_none()) {
+                Some(before) => Some(before),
+                None => Some(trial),
+            }
         };
-        Trial::of((problem, scale), *cause, current, fit)
+        let trial = by_form(&begun)
+            .iter()
+            .map(Vec::as_slice)
+            .fold(None, of_form);
+        trial.unwrap_or_else(|| Trial::of((problem, scale), *cause, current, current.clone()))
     };
     let mut trials: Vec<Trial> = leading.par_iter().map(|one| try_one(one, wanted)).collect();
     let lowest = trials

@@ -90,7 +90,10 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
     }
-    if bench.end_is_fitted {
+    if bench.fitted.middle {
+        notes.push("Something happened within the cycles that are set aside as a rule, which all samples together tell: the fit was given them, and the gain is measured on others.".to_string());
+    }
+    if bench.fitted.end {
         notes.push("The last cycles showed what no earlier one did: the fit was given them to find out why, and the gain is measured on cycles before them.".to_string());
     }
     if bench.whole.wears_on {

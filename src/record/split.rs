@@ -11,21 +11,27 @@ use super::cycles::{Cycle, alike, cycles};
 /// those, the ones before are set aside in their place, and where a begun cycle behind the last one does, that stays.
 /// So does what is behind the last one and longer than the cycles that are set aside.
 pub fn held_out(drive: &[f64]) -> Vec<bool> {
-    marked(drive, false)
+    held_out_elsewhere(drive, Fitted::default())
 }
 
-/// The same with the cycles before the last ones, where the fit has to see how the record ends.
-pub fn held_out_before_the_end(drive: &[f64]) -> Vec<bool> {
-    marked(drive, true)
+/// What has to be seen by the fit although it would be set aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Fitted {
+    /// How the record ends: the cycles before the last ones are set aside.
+    pub end: bool,
+    /// The level in the middle of the record: another one is set aside.
+    pub middle: bool,
 }
 
-fn marked(drive: &[f64], end_is_fitted: bool) -> Vec<bool> {
+/// The same where the fit has to see some of it.
+pub fn held_out_elsewhere(drive: &[f64], fitted: Fitted) -> Vec<bool> {
     let mut held = vec![false; drive.len()];
     let found = cycles(drive);
     let mut mark = |from: usize, to: usize| held[from..to].iter_mut().for_each(|h| *h = true);
     if found.len() < 6 {
-        let at_end = &AT_THE_END[usize::from(end_is_fitted)..];
-        for pieces in [&IN_THE_MIDDLE[..], at_end] {
+        let at_end = &AT_THE_END[usize::from(fitted.end)..];
+        let in_the_middle = &IN_THE_MIDDLE[usize::from(fitted.middle)..];
+        for pieces in [in_the_middle, at_end] {
             if let Some((from, to)) = piece(drive, pieces) {
                 mark(from, to);
             }
@@ -37,7 +43,7 @@ fn marked(drive: &[f64], end_is_fitted: bool) -> Vec<bool> {
     let at_end = found.len() - count;
     let last = match largest.iter().position(|l| *l) {
         Some(first) if first >= at_end => first - count,
-        _ if end_is_fitted => at_end - count,
+        _ if fitted.end => at_end - count,
         _ => at_end,
     };
     let behind = found[found.len() - 1].end;
@@ -50,7 +56,15 @@ fn marked(drive: &[f64], end_is_fitted: bool) -> Vec<bool> {
     };
     mark(found[last].start, to);
     let budget = drive.len() / 7;
-    if let Some((from, to)) = middle_level(&found[1..last], &largest[1..last], budget) {
+    let middle = |apart: Option<(usize, usize)>| {
+        middle_level((&found[1..last], &largest[1..last]), budget, apart)
+    };
+    let usual = middle(None);
+    let chosen = match fitted.middle {
+        true => middle(usual),
+        false => usual,
+    };
+    if let Some((from, to)) = chosen {
         mark(from, to);
     }
     held
@@ -91,8 +105,13 @@ fn largest(drive: &[f64], found: &[Cycle]) -> Vec<bool> {
         .collect()
 }
 
-/// The level nearest the middle whose samples fit the budget and that is not the only one of the largest load.
-fn middle_level(found: &[Cycle], largest: &[bool], budget: usize) -> Option<(usize, usize)> {
+/// The level nearest the middle, apart from given samples, whose own fit the budget and that is not the only one of the
+/// largest load.
+fn middle_level(
+    (found, largest): (&[Cycle], &[bool]),
+    budget: usize,
+    apart: Option<(usize, usize)>,
+) -> Option<(usize, usize)> {
     let mut levels: Vec<(usize, usize)> = Vec::new();
     let mut start = 0;
     for i in 1..=found.len() {
@@ -119,6 +138,10 @@ fn middle_level(found: &[Cycle], largest: &[bool], budget: usize) -> Option<(usi
         })
         .filter(|&(from, end)| found[end - 1].end - found[from].start <= budget)
         .filter(largest_elsewhere)
+        .filter(|&(from, end)| {
+            let overlaps = |(first, last)| found[from].start < last && first < found[end - 1].end;
+            !apart.is_some_and(overlaps)
+        })
         .min_by(|a, b| {
             let far = |l: &(usize, usize)| ((l.0 + l.1) as f64 / 2.0 - middle).abs();
             far(a).total_cmp(&far(b))
@@ -182,11 +205,31 @@ mod tests {
     fn where_the_fit_sees_the_end_the_cycles_before_are_set_aside() {
         let steps: Vec<f64> = (0..8).map(f64::from).collect();
         for drive in [sines(&[0.5; 30]), sines(&[1.0; 3]), steps.repeat(100)] {
-            let (usual, other) = (held_out(&drive), held_out_before_the_end(&drive));
+            let end = Fitted {
+                end: true,
+                ..Fitted::default()
+            };
+            let (usual, other) = (held_out(&drive), held_out_elsewhere(&drive, end));
             let last = drive.len() - 2;
             assert!(usual[last] && !other[last]);
             let count = |held: &[bool]| held.iter().filter(|h| **h).count();
             assert!(2 * count(&other) > count(&usual), "{}", count(&other));
+        }
+    }
+
+    #[test]
+    fn where_the_fit_sees_the_middle_another_level_is_set_aside() {
+        let levels = [0.3, 0.3, 0.6, 0.6, 1.0, 1.0, 0.7, 0.7, 0.4, 0.4, 1.0, 1.0];
+        let middle = Fitted {
+            middle: true,
+            ..Fitted::default()
+        };
+        for drive in [sines(&levels), sines(&[1.0; 3])] {
+            let (usual, other) = (held_out(&drive), held_out_elsewhere(&drive, middle));
+            let end = drive.len() * 3 / 4;
+            let mut both = usual[..end].iter().zip(&other);
+            assert!(usual[..end].contains(&true) && both.all(|(a, b)| !(*a && *b)));
+            assert_eq!(usual[end..], other[end..]);
         }
     }
 

@@ -1,4 +1,5 @@
-//! What happens in the last cycles, which the fit does not see at first, has its cause looked for as well.
+//! What happens in cycles that the fit does not see at first, the last ones or a level before them, has its cause looked for
+//! as well, and its gain measured on others.
 
 mod plays;
 
@@ -18,8 +19,8 @@ const CYCLES: usize = 24;
 /// Deviation of the noise \[m\].
 const NOISE: f64 = 2e-8;
 
-/// Forty plays in series under cycles of force of three levels; the sensor slips by `jump` a cycle before the end.
-fn record(jump: f64) -> Record {
+/// Forty plays in series under cycles of force of three levels; the sensor slips by `jump` at a sample.
+fn record_with(jump: f64, slips: usize) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let count = CYCLES * CYCLE;
@@ -27,7 +28,7 @@ fn record(jump: f64) -> Record {
         |i: usize| [300.0, 500.0, 400.0][3 * i / count] * (TAU * i as f64 / CYCLE as f64).sin();
     let force: Vec<f64> = (0..count).map(bears).collect();
     let reads = |(i, u): (usize, f64)| {
-        let slipped = if i > count - CYCLE { jump } else { 0.0 };
+        let slipped = if i > slips { jump } else { 0.0 };
         u + slipped + NOISE * noise()
     };
     let truth = plays::displacement(&force).into_iter();
@@ -39,6 +40,40 @@ fn record(jump: f64) -> Record {
         displacement,
         ..Record::default()
     }
+}
+
+/// The same, a cycle before the end.
+fn record(jump: f64) -> Record {
+    record_with(jump, (CYCLES - 1) * CYCLE)
+}
+
+#[test]
+fn a_sensor_that_slips_within_the_level_set_aside_is_placed() {
+    // Of the last level but the last cycles; that of the largest load is never set aside.
+    let slips = 17 * CYCLE + CYCLE / 3;
+    let findings = diagnose(&[record_with(6.0 * NOISE, slips)], |_| ()).unwrap();
+    let [stretches] = &findings.held_out[..] else {
+        panic!("seed {SEED}: one record");
+    };
+    let at = 0.01 * slips as f64;
+    assert!(
+        stretches.iter().all(|(from, to)| at < *from || *to < at),
+        "seed {SEED}: {stretches:?}"
+    );
+    let summary = &findings.summary;
+    assert_eq!(
+        findings.verdict,
+        Verdict::Explained,
+        "seed {SEED}: {summary} {:?} {:?}",
+        findings.unexplained,
+        findings.gain
+    );
+    assert_eq!(findings.causes[0].name, "offset_step", "seed {SEED}");
+    let (ratio, interval) = findings.gain;
+    let (_, upper) = interval.expect("cycles enough");
+    assert!(ratio < upper && upper < 1.0, "seed {SEED}: {ratio} {upper}");
+    let noted = |note: &String| note.contains("within the cycles that are set aside as a rule");
+    assert!(findings.notes.iter().any(noted), "seed {SEED}");
 }
 
 #[test]
