@@ -243,11 +243,24 @@ fn bad_usage_is_refused() {
     simulate(&["--drive", "torque"], &["torque", "displacement"]);
     simulate(&["--columns", "force"], &["--columns `force`", "force=2"]);
     simulate(&["--columns", "force=0"], &["counted from 1"]);
+    let twice = ["--columns", "force=2,displacement=2"];
+    simulate(
+        &twice,
+        &["column 2 `F [N]`", "for force and for displacement"],
+    );
     simulate(
         &["--columns", "time=1,force=9"],
         &["load.csv", "column 9", "2 `F [N]`"],
     );
     simulate(&["--units", "force=stone"], &["`stone`", "kN"]);
+    folder.put("alone.csv", b"force [N]\n0\n50\n");
+    folder.assert_refuses(
+        &["simulate", "joint.json", "alone.csv", "-o", "o.csv"],
+        &[
+            "alone.csv, line 1",
+            "a load needs time, and force or displacement",
+        ],
+    );
     let no_displacement = ["--columns", "time=1,force=2", "--drive", "displacement"];
     simulate(&no_displacement, &["load.csv", "no column displacement"]);
 }
