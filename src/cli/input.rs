@@ -3,6 +3,7 @@
 use super::BadInput;
 use crate::identify::table::Known;
 use crate::joint::Joint;
+use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
 use std::path::{Path, PathBuf};
 
@@ -88,7 +89,10 @@ impl BesideTable {
             ("--modal-mass", self.modal_mass),
         ] {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                return Err(BadInput(format!("{option} {value}: must be positive")));
+                return Err(BadInput(format!(
+                    "{option} {}: must be a number above zero",
+                    shown(value)
+                )));
             }
         }
         if self.stiffness.is_some() && self.modal_mass.is_some() {

@@ -14,7 +14,11 @@ pub enum PackError {
     #[error(transparent)]
     Variables(#[from] VariableError),
     /// A parameter outside its own bounds.
-    #[error("parameter `{name}` is {value}: it must lie in [{lower}, {upper}]")]
+    #[error(
+        "parameter `{name}` is {}: it must be {}",
+        crate::joint::error::shown(*.value),
+        crate::joint::error::admitted(*.lower, *.upper)
+    )]
     StartOutOfBounds {
         /// Name of the variable.
         name: String,
