@@ -291,6 +291,37 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
     assert_eq!(diagnosis["verdict"], "clean");
 }
 
+/// A table without displacement makes no joint: what stands in the folder beside its findings was of
+/// an earlier diagnosis, or of somebody else.
+#[test]
+fn a_diagnosis_takes_away_only_what_one_wrote() {
+    let folder = folder("earlier");
+    let table = |name: &str, scale: f64| {
+        let rows = LEVELS
+            .map(power_law)
+            .map(|(_, force, loss)| (scale * force, loss));
+        let rows = rows.map(|(force, loss)| format!("{force:e},{loss:e}\n"));
+        let text = "force amplitude [N],dissipation [J]\n".to_string() + &rows.concat();
+        fs::write(folder.join(name), text).expect("written");
+    };
+    table("table.csv", 1.0);
+    let result = folder.join("result");
+    fs::create_dir(&result).expect("a folder");
+    let program = "# 2 cycles of sine, amplitude 180 N, 5.03 Hz\ntime [s],force [N]\n0.0,0.0\n";
+    let put = |name: &str, text: &str| fs::write(result.join(name), text).expect("written");
+    put("joint.json", "of somebody else");
+    put("next_experiment.csv", program);
+    let diagnosed = iwan(&["diagnose", "table.csv", "-o", "result"], &folder);
+    assert_eq!(diagnosed.status.code(), Some(0), "{diagnosed:?}");
+    assert!(result.join("joint.json").exists());
+    assert!(!result.join("next_experiment.csv").exists());
+    assert!(String::from_utf8_lossy(&diagnosed.stderr).contains("joint.json is of no diagnosis"));
+    let again = iwan(&["diagnose", "table.csv", "-o", "result"], &folder);
+    assert_eq!(again.status.code(), Some(0), "{again:?}");
+    assert!(!result.join("joint.json").exists());
+    assert!(String::from_utf8_lossy(&again.stderr).contains("earlier diagnosis is removed"));
+}
+
 /// The resonance of the bolted beam falls and rises again. With the modal mass its own joint is
 /// formed; no Iwan network alone has these levels.
 #[test]

@@ -319,6 +319,80 @@ fn a_damaged_joint_is_refused() {
     refuse(unknown.as_bytes(), &["$.causes", "loose_bolt"]);
 }
 
+/// The results of a diagnosis have fixed names, under which something else may stand.
+#[test]
+fn a_diagnosis_replaces_no_input_and_no_measurement() {
+    let folder = Folder::new("results");
+    let rows = format!("{HEADER}0,0,0\n1,50,0.01\n2,-50,-0.01\n");
+    for name in ["next_experiment.csv", "report.html", "joint.json"] {
+        let path = folder.put(name, rows.as_bytes());
+        folder.put("other.csv", b"t [s],F [N],u [mm]\n0,0,0\n1,50,0.01\n");
+        let here = format!("./{name}");
+        let words = [name, "this is an input", "another folder"];
+        folder.assert_refuses(&["diagnose", name, "-o", "."], &words);
+        folder.assert_refuses(&["diagnose", "other.csv", &here, "-o", "."], &words);
+        let dummy = ["diagnose", "other.csv", "--dummy", name, "-o", "."];
+        folder.assert_refuses(&dummy, &words);
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(name, folder.0.join("link.csv")).expect("a link");
+            folder.assert_refuses(&["diagnose", "link.csv", "-o", "."], &words);
+            std::fs::remove_file(folder.0.join("link.csv")).expect("the link");
+        }
+        std::fs::remove_file(path).expect("the test file");
+    }
+    // What was measured under the program of an earlier diagnosis stays, whether it is given or not.
+    folder.put("next_experiment.csv", rows.as_bytes());
+    let words = ["next_experiment.csv", "no load program", "another folder"];
+    folder.assert_refuses(&["diagnose", "other.csv", "-o", "."], &words);
+}
+
+/// Before anything is read, so that no hour of computing is lost.
+#[test]
+fn a_place_that_takes_no_results_is_told_first() {
+    let folder = Folder::new("no place");
+    let long = "x".repeat(300);
+    let inside = format!("new/{long}");
+    let words = [long.as_str(), "cannot make this folder"];
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", &long], &words);
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", &inside], &words);
+    let words = [long.as_str(), "cannot write"];
+    folder.assert_refuses(&["identify", "none.csv", "-o", &long], &words);
+    std::fs::create_dir_all(folder.0.join("result/report.html")).expect("a folder");
+    let words = ["report.html", "this is a folder"];
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", "result"], &words);
+}
+
+/// `iwan causes > /dev/full`: no defect of the program.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_told() {
+    let folder = Folder::new("full");
+    let joint = folder.put("joint.json", JOINT.as_bytes());
+    let load = folder.put("load.csv", b"t [s],F [N]\n0,0\n1,50\n");
+    let (joint, load) = (joint.to_string_lossy(), load.to_string_lossy());
+    for arguments in [
+        &["causes"][..],
+        &["--help"],
+        &["simulate", &joint, &load, "-o", "-"],
+    ] {
+        let full = std::fs::File::options().write(true).open("/dev/full");
+        let output = Command::new(env!("CARGO_BIN_EXE_iwan"))
+            .args(arguments)
+            .stdout(full.expect("a device of Linux"))
+            .output()
+            .expect("the binary runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(
+            message.contains("standard output"),
+            "{arguments:?}: {message}"
+        );
+    }
+    let words = ["/dev/full: cannot write"];
+    folder.assert_refuses(&["simulate", &joint, &load, "-o", "/dev/full"], &words);
+}
+
 /// `2>&1 | head` closes standard error before the last message: work is done and status told all the same.
 #[cfg(unix)]
 #[test]

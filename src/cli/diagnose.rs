@@ -1,11 +1,13 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
+mod results;
+
 use super::input::{BesideTable, Records};
 use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
-use crate::diagnose::experiment::{Experiment, Limits, Options};
+use crate::diagnose::experiment::{Limits, Options};
 use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
 use crate::pack::{Archive, FmiVersion, Library};
@@ -73,26 +75,15 @@ impl RigLimits {
     }
 }
 
-/// The program as a load for `iwan simulate`.
-fn program(experiment: &Experiment) -> String {
-    let mut text = String::new();
-    for block in &experiment.blocks {
-        text += &format!("# {block}\n");
-    }
-    text += &format!("time [s],{} [{}]\n", experiment.drive, experiment.unit);
-    for (time, value) in experiment.time.iter().zip(&experiment.values) {
-        text += &format!("{time:?},{value:?}\n");
-    }
-    text
-}
-
 /// Runs the subcommand: report.html, diagnosis.json, joint.json, joint.fmu and, where something is
 /// open, next_experiment.csv; all or none.
 ///
 /// # Errors
 /// Bad input as in reading; [`BadInput`] for records that hold no time history.
 pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
-    output::admit_folder(&arguments.output)?;
+    let mut inputs = arguments.records.paths();
+    inputs.extend(arguments.dummy.as_deref());
+    results::admit(&arguments.output, &inputs)?;
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     let start = Instant::now();
@@ -137,15 +128,20 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         Some(joint) => archive(joint, drive)?,
         None => None,
     };
+    match arguments.json {
+        true => output::print(&format!("{diagnosis}\n"))?,
+        false => output::print(&text::render(&findings))?,
+    }
+    let earlier = results::is_of_one(&arguments.output);
     output::make_folder(&arguments.output)?;
     let mut files = vec![
         ("report.html", page.into_bytes()),
-        ("diagnosis.json", diagnosis.clone().into_bytes()),
+        ("diagnosis.json", diagnosis.into_bytes()),
     ];
     files.extend(joint.map(|text| ("joint.json", text.into_bytes())));
     let experiment = findings.outlook.experiment.as_ref();
     let experiment = experiment.filter(|experiment| !experiment.blocks.is_empty());
-    files.extend(experiment.map(|e| ("next_experiment.csv", program(e).into_bytes())));
+    files.extend(experiment.map(|e| (results::PROGRAM, results::program(e).into_bytes())));
     files.extend(archive.map(|bytes| ("joint.fmu", bytes)));
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
@@ -153,26 +149,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         progress(&path.display().to_string());
     }
     let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    clear(&arguments.output, &written)?;
-    match arguments.json {
-        true => output::print(&format!("{diagnosis}\n")),
-        false => output::print(&text::render(&findings)),
-    }
-}
-
-/// Takes away what an earlier diagnosis left in the folder and this one has not written anew: a joint
-/// or a programme beside findings that are not its own would mislead.
-fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
-    for name in ["joint.json", "joint.fmu", "next_experiment.csv"] {
-        let path = folder.join(name);
-        if !written.contains(&name) && path.is_file() {
-            std::fs::remove_file(&path)?;
-            output::tell(&format!(
-                "{} of an earlier diagnosis is removed",
-                path.display()
-            ));
-        }
-    }
+    results::clear(&arguments.output, &written, earlier)?;
     Ok(())
 }
 
