@@ -363,6 +363,52 @@ fn a_place_that_takes_no_results_is_told_first() {
     folder.assert_refuses(&["diagnose", "none.csv", "-o", "result"], &words);
 }
 
+/// A stepped sine of a joint that slips; `sign` of its displacement.
+fn loops(sign: f64, scale: f64) -> String {
+    let rows = (0..300).map(|i| {
+        let phase = 0.1 * f64::from(i);
+        let displacement = sign * (0.01 * phase.sin() - 0.002 * phase.cos());
+        let (force, displacement) = (scale * 50.0 * phase.sin(), scale * displacement);
+        format!("{:?},{force:?},{displacement:?}\n", 0.01 * f64::from(i))
+    });
+    HEADER.to_string() + &rows.collect::<String>()
+}
+
+#[test]
+fn records_that_no_joint_makes_are_refused_before_any_fit() {
+    let folder = Folder::new("no joint");
+    folder.put("good.csv", loops(1.0, 1.0).as_bytes());
+    folder.put("one.csv", loops(-1.0, 1.0).as_bytes());
+    folder.put("two.csv", loops(-1.0, 2.0).as_bytes());
+    let words = ["one.csv, two.csv", "falls where the force rises", "sign"];
+    let records = ["good.csv", "one.csv", "two.csv", "-o", "new"];
+    folder.assert_refuses(&[&["identify"], &records[..]].concat(), &words);
+    folder.assert_refuses(&[&["diagnose"], &records[..]].concat(), &words);
+    let dummy = ["diagnose", "good.csv", "--dummy", "two.csv", "-o", "new"];
+    folder.assert_refuses(&dummy, &["two.csv", "falls where the force rises"]);
+    folder.put("huge.csv", loops(1.0, 1e200).as_bytes());
+    let words = [
+        "huge.csv, line 2, column 3 `displacement [mm]`",
+        "beyond all",
+        "unit",
+    ];
+    folder.assert_refuses(&["identify", "huge.csv", "-o", "new"], &words);
+    folder.put("tiny.csv", loops(1.0, 1e-200).as_bytes());
+    let words = [
+        "tiny.csv, line",
+        "column 2 `force [N]`",
+        "too small",
+        "unit",
+    ];
+    folder.assert_refuses(&["diagnose", "tiny.csv", "-o", "new"], &words);
+    folder.put(
+        "short.csv",
+        format!("{HEADER}0,0,0\n1,50,0.01\n").as_bytes(),
+    );
+    let words = ["short.csv", "2 samples are too few", "whole test"];
+    folder.assert_refuses(&["identify", "short.csv", "-o", "new"], &words);
+}
+
 /// `iwan causes > /dev/full`: no defect of the program.
 #[cfg(target_os = "linux")]
 #[test]

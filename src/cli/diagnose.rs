@@ -15,6 +15,7 @@ use crate::read::Loaded;
 use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
 use crate::saved::{Judgement, Provenance, SavedJoint, write};
+use anyhow::Context;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -75,6 +76,10 @@ impl RigLimits {
     }
 }
 
+/// Where the physics refuses the best joint, the records are none of a joint.
+const NO_JOINT: &str = "no joint follows these records: check the sign and the order of the force and \
+                        displacement columns";
+
 /// Runs the subcommand: report.html, diagnosis.json, joint.json, joint.fmu and, where something is
 /// open, next_experiment.csv; all or none.
 ///
@@ -94,7 +99,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let (mut findings, missing) = match tables(&loaded)? {
         Some(tables) => {
             let found = diagnose_tables(&tables, &known, progress)
-                .map_err(|error| BadInput(error.to_string()))?;
+                .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
             (found.findings, found.missing)
         }
         None => {
@@ -103,7 +108,9 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
                 dummy: dummy(arguments)?,
             };
             let records = histories(&loaded)?;
-            (diagnose_with(&records, &options, progress)?, None)
+            let found = diagnose_with(&records, &options, progress)
+                .with_context(|| format!("{}: {NO_JOINT}", arguments.records.named()))?;
+            (found, None)
         }
     };
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
@@ -190,6 +197,7 @@ fn dummy(arguments: &Diagnose) -> anyhow::Result<Option<Record>> {
     let loaded = crate::read::file(file, &arguments.records.foreign.options()?)?;
     super::input::tell_notes(file, &loaded.notes);
     let mut records = histories(std::slice::from_ref(&loaded))?;
+    super::signs::admit(records.iter().map(|record| (file.as_path(), record)))?;
     Ok(records.pop())
 }
 

@@ -39,7 +39,8 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     output::tell(&format!("identifying from {} record(s) …", loaded.len()));
-    let found = Found::from(&loaded, &known).map_err(|e| BadInput(e.to_string()))?;
+    let found = Found::from(&loaded, &known)
+        .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
     let report = if arguments.json {
         json::report(&found)
     } else {

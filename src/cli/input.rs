@@ -5,6 +5,7 @@ use crate::identify::table::Known;
 use crate::joint::Joint;
 use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
+use crate::record::Measurement;
 use std::path::{Path, PathBuf};
 
 /// How to read files whose header does not say what they hold.
@@ -44,7 +45,7 @@ impl Records {
     ///
     /// # Errors
     /// [`ReadError`] of the first bad file; [`BadInput`] for one content under two names: a copy
-    /// would count as a second test, and as data that no fit has seen.
+    /// would count as a second test, and as data that no fit has seen; or for signs that no joint has.
     pub fn load(&self) -> anyhow::Result<Vec<Loaded>> {
         let options = self.foreign.options()?;
         let mut loaded: Vec<Loaded> = Vec::new();
@@ -58,7 +59,28 @@ impl Records {
             tell_notes(file, &next.notes);
             loaded.push(next);
         }
+        let files = self.files.iter().zip(&loaded);
+        super::signs::admit(
+            files.filter_map(|(file, loaded)| match &loaded.measurement {
+                Measurement::History(record) => Some((file.as_path(), record)),
+                Measurement::Amplitudes(_) => None,
+            }),
+        )?;
         Ok(loaded)
+    }
+
+    /// The names of the files, for a message about all of them.
+    pub fn named(&self) -> String {
+        match &self.files[..] {
+            [first, _, _, _, ..] => {
+                format!("{} and {} more", first.display(), self.files.len() - 1)
+            }
+            few => few
+                .iter()
+                .map(|file| file.display().to_string())
+                .collect::<Vec<_>>()
+                .join(", "),
+        }
     }
 
     /// The files as inputs that no output may replace.

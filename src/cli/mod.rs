@@ -8,6 +8,7 @@ mod identify;
 pub mod input;
 pub mod output;
 mod provenance;
+mod signs;
 mod simulate;
 
 use clap::{Parser, Subcommand};
