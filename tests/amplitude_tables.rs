@@ -248,9 +248,15 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
         .collect();
     let text = format!("force amplitude [N],dissipation [J]\n{}\n", rows.join("\n"));
     fs::write(folder.join("table.csv"), text).expect("written");
-    let bare = iwan(&["identify", "table.csv", "-o", "joint.json"], &folder);
+    let bare = iwan(&["identify", "table.csv"], &folder);
     assert_eq!(bare.status.code(), Some(0), "{bare:?}");
     assert!(String::from_utf8_lossy(&bare.stderr).contains("--stiffness"));
+    let asked = iwan(&["identify", "table.csv", "-o", "joint.json"], &folder);
+    assert_eq!(asked.status.code(), Some(2), "{asked:?}");
+    let told = String::from_utf8_lossy(&asked.stderr).into_owned();
+    assert!(told.contains("joint.json: there is no joint"), "{told}");
+    assert!(told.contains("--stiffness"), "{told}");
+    assert!(asked.stdout.is_empty());
     assert!(!folder.join("joint.json").exists());
     let given = iwan(
         &[
@@ -265,6 +271,8 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
     );
     assert_eq!(given.status.code(), Some(0), "{given:?}");
     assert!(folder.join("joint.json").exists());
+    let printed = String::from_utf8_lossy(&given.stdout);
+    assert!(!printed.contains("NaN"), "{printed}");
     let refused = iwan(
         &["identify", "table.csv", "--stiffness=-1", "-o", "x.json"],
         &folder,

@@ -409,6 +409,44 @@ fn records_that_no_joint_makes_are_refused_before_any_fit() {
     folder.assert_refuses(&["identify", "short.csv", "-o", "new"], &words);
 }
 
+#[test]
+fn values_that_no_file_has_a_use_for_are_refused() {
+    let folder = Folder::new("no use");
+    folder.put("loops.csv", loops(1.0, 1.0).as_bytes());
+    let levels = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|f: f64| {
+        let loss = 1e-9 * f.powf(2.6);
+        format!("{f},{loss:e},{:e}\n", 1e-6 * f)
+    });
+    let header = "force amplitude [N],dissipation [J],displacement amplitude [m]\n";
+    folder.put(
+        "table.csv",
+        (header.to_string() + &levels.concat()).as_bytes(),
+    );
+    for command in ["identify", "diagnose"] {
+        let refuse = |file: &str, option: &str, value: &str, words: &[&str]| {
+            folder.assert_refuses(&[command, file, option, value, "-o", "new"], words);
+        };
+        for option in ["--stiffness", "--modal-mass"] {
+            refuse("loops.csv", option, "1e6", &[option, "time history"]);
+            refuse("loops.csv", option, "-5", &["-5", "above zero"]);
+        }
+        refuse(
+            "table.csv",
+            "--stiffness",
+            "1e6",
+            &["--stiffness", "displacement"],
+        );
+        refuse(
+            "table.csv",
+            "--modal-mass",
+            "1",
+            &["--modal-mass", "resonance"],
+        );
+    }
+    let limit = ["diagnose", "loops.csv", "--limit-force", "-5", "-o", "new"];
+    folder.assert_refuses(&limit, &["'-5'", "above zero"]);
+}
+
 /// `iwan causes > /dev/full`: no defect of the program.
 #[cfg(target_os = "linux")]
 #[test]

@@ -38,7 +38,12 @@ pub struct Check {
     record: Option<PathBuf>,
     /// The importer's communication step \[s\] to judge; by default the one that the archive
     /// suggests
-    #[arg(long, value_name = "SECONDS", requires = "record")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        requires = "record",
+        allow_negative_numbers = true
+    )]
     step: Option<f64>,
     /// Result as JSON
     #[arg(long)]

@@ -45,16 +45,16 @@ pub struct Diagnose {
 #[derive(Debug, Clone, Copy, clap::Args)]
 struct RigLimits {
     /// Largest force of the next experiment, newton
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     limit_force: Option<f64>,
     /// Largest displacement of the next experiment, metre (records driven by displacement)
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = positive, allow_negative_numbers = true)]
     limit_displacement: Option<f64>,
     /// Highest rate of its cycles, hertz
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     limit_rate: Option<f64>,
     /// Its longest duration, seconds
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     limit_duration: Option<f64>,
 }
 
@@ -91,6 +91,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     results::admit(&arguments.output, &inputs)?;
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
+    arguments.beside.of_use(&loaded)?;
     let start = Instant::now();
     let progress = |stage: &str| {
         let seconds = start.elapsed().as_secs_f64();

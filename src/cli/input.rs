@@ -1,11 +1,11 @@
 //! What several subcommands read, and what they say of it.
 
 use super::BadInput;
-use crate::identify::table::Known;
+use crate::identify::table::{Known, at_resonance};
 use crate::joint::Joint;
 use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
-use crate::record::Measurement;
+use crate::record::{AmplitudeTable, Measurement};
 use std::path::{Path, PathBuf};
 
 /// How to read files whose header does not say what they hold.
@@ -93,10 +93,10 @@ impl Records {
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct BesideTable {
     /// Amplitude tables: stiffness of the joint at small load, where no displacement is kept
-    #[arg(long, value_name = "N/m")]
+    #[arg(long, value_name = "N/m", allow_negative_numbers = true)]
     stiffness: Option<f64>,
     /// Amplitude tables at phase resonance: modal mass, for the joint's own force
-    #[arg(long, value_name = "kg")]
+    #[arg(long, value_name = "kg", allow_negative_numbers = true)]
     modal_mass: Option<f64>,
 }
 
@@ -126,6 +126,43 @@ impl BesideTable {
             stiffness: self.stiffness,
             modal_mass: self.modal_mass,
         })
+    }
+
+    /// Refuses a value that no file of these has a use for: a joint would be told to rest on it.
+    ///
+    /// # Errors
+    /// [`BadInput`] naming the option, and why.
+    pub fn of_use(&self, loaded: &[Loaded]) -> Result<(), BadInput> {
+        let tables: Vec<&AmplitudeTable> = loaded
+            .iter()
+            .filter_map(|loaded| match &loaded.measurement {
+                Measurement::Amplitudes(table) => Some(table),
+                Measurement::History(_) => None,
+            })
+            .collect();
+        let of_stiffness =
+            |table: &&AmplitudeTable| table.displacement_amplitude.is_none() || at_resonance(table);
+        let of_mass = |table: &&AmplitudeTable| table.frequency.is_some() && at_resonance(table);
+        let unused = |option: &str, why: &str| {
+            Err(BadInput(format!(
+                "{option}: nothing here has a use for it: {why}; leave it out"
+            )))
+        };
+        const HISTORY: &str = "a time history tells the joint's own force and stiffness";
+        match (self.stiffness, self.modal_mass) {
+            (Some(_), _) if tables.is_empty() => unused("--stiffness", HISTORY),
+            (_, Some(_)) if tables.is_empty() => unused("--modal-mass", HISTORY),
+            (Some(_), _) if !tables.iter().any(of_stiffness) => unused(
+                "--stiffness",
+                "the displacement amplitudes of the table tell it",
+            ),
+            (_, Some(_)) if !tables.iter().any(of_mass) => unused(
+                "--modal-mass",
+                "it is for a table with displacement amplitudes and frequencies, taken at phase \
+                 resonance, where the loss is force times displacement times pi",
+            ),
+            _ => Ok(()),
+        }
     }
 }
 
