@@ -92,6 +92,8 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     arguments.beside.of_use(&loaded)?;
+    let preloads = super::preload::notes(&loaded);
+    preloads.iter().for_each(|note| output::tell(note));
     let start = Instant::now();
     let progress = |stage: &str| {
         let seconds = start.elapsed().as_secs_f64();
@@ -114,6 +116,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
             (found, None)
         }
     };
+    findings.notes.extend(preloads);
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
     }

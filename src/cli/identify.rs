@@ -43,9 +43,12 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     arguments.beside.of_use(&loaded)?;
+    let preloads = super::preload::notes(&loaded);
+    preloads.iter().for_each(|note| output::tell(note));
     output::tell(&format!("identifying from {} record(s) …", loaded.len()));
-    let found = Found::from(&loaded, &known)
+    let mut found = Found::from(&loaded, &known)
         .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
+    found.noticed.extend(preloads);
     if let (Some(file), Err(why)) = (asked, &found.joint) {
         return Err(BadInput(format!(
             "{}: there is no joint to write: {why}; without `-o` the report alone is printed",

@@ -7,6 +7,7 @@ mod export;
 mod identify;
 pub mod input;
 pub mod output;
+mod preload;
 mod provenance;
 mod signs;
 mod simulate;
