@@ -256,6 +256,22 @@ fn without_a_library_the_way_to_one_is_told() {
     assert_eq!(output.status.code(), Some(2), "{told}");
     assert!(told.contains(iwan::pack::BUILD_COMMAND), "{told}");
     assert!(told.contains("--binary PLATFORM=FILE"), "{told}");
+    // A diagnosis goes on without, and its findings say what is not there.
+    let bolt = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bolt-1.csv");
+    let output = Command::new(&program)
+        .current_dir(&folder)
+        .env_remove("IWAN_FMU_LIBRARY")
+        .arg("diagnose")
+        .arg(bolt)
+        .args(["-o", "result"])
+        .output()
+        .expect("the copy runs");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(printed.contains("joint.fmu was not written"), "{printed}");
+    assert!(printed.contains("--binary PLATFORM=FILE"), "{printed}");
+    assert!(folder.join("result/joint.json").exists());
+    assert!(!folder.join("result/joint.fmu").exists());
     // Beside the program, under the name it has in the archive, it is found.
     std::fs::copy(library(), folder.join("IwanJoint.so")).expect("a copy");
     let output = Command::new(&program)

@@ -10,7 +10,7 @@ use crate::diagnose::amplitude_table::diagnose_tables;
 use crate::diagnose::experiment::{Limits, Options};
 use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
-use crate::pack::{Archive, FmiVersion, Library};
+use crate::pack::{Archive, BUILD_COMMAND, FmiVersion, Library};
 use crate::read::Loaded;
 use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
@@ -94,6 +94,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     arguments.beside.of_use(&loaded)?;
     let preloads = super::preload::notes(&loaded);
     preloads.iter().for_each(|note| output::tell(note));
+    let library = library();
     let start = Instant::now();
     let progress = |stage: &str| {
         let seconds = start.elapsed().as_secs_f64();
@@ -120,6 +121,9 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
     }
+    if missing.is_none() && library.is_none() {
+        findings.notes.push(without_library(drive(&findings)));
+    }
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
     let joint = match &missing {
@@ -131,13 +135,12 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
             None
         }
     };
-    let drive = match findings.judged.as_str() {
-        "force" => Drive::Displacement,
-        _ => Drive::Force,
-    };
-    let archive = match &joint {
-        Some(joint) => archive(joint, drive)?,
-        None => None,
+    let archive = match (&joint, library) {
+        (Some(joint), Some(library)) => {
+            let drive = drive(&findings);
+            Some(Archive::new(joint, "joint.json", drive, &[library])?.bytes()?)
+        }
+        _ => None,
     };
     match arguments.json {
         true => output::print(&format!("{diagnosis}\n"))?,
@@ -164,14 +167,31 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The unit for this machine; said and left out where there is no library for it.
-fn archive(joint: &str, drive: Drive) -> anyhow::Result<Option<Vec<u8>>> {
-    let library = Library::of_this_machine(FmiVersion::Two)
-        .map_err(|error| output::tell(&format!("no joint.fmu is written: {error}")))
-        .ok();
-    let bytes =
-        library.map(|library| Archive::new(joint, "joint.json", drive, &[library])?.bytes());
-    Ok(bytes.transpose()?)
+/// What the exported joint is driven by: the channel that was prescribed here.
+fn drive(findings: &Findings) -> Drive {
+    match findings.judged.as_str() {
+        "force" => Drive::Displacement,
+        _ => Drive::Force,
+    }
+}
+
+/// The library for this machine; told and done without where there is none.
+fn library() -> Option<Library> {
+    Library::of_this_machine(FmiVersion::Two)
+        .map_err(|error| output::tell(&format!("joint.fmu will not be written: {error}")))
+        .ok()
+}
+
+/// What the findings say of a joint.fmu that is not there.
+fn without_library(drive: Drive) -> String {
+    let drive = match drive {
+        Drive::Force => "",
+        Drive::Displacement => " --drive displacement",
+    };
+    format!(
+        "joint.fmu was not written, for want of a shared library of this program. With the one that `{BUILD_COMMAND}` \
+         leaves in the source folder, `iwan export joint.json -o joint.fmu{drive} --binary PLATFORM=FILE` makes it."
+    )
 }
 
 /// The amplitude tables, where the files are all tables; `None` where none is.
