@@ -248,9 +248,15 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
         .collect();
     let text = format!("force amplitude [N],dissipation [J]\n{}\n", rows.join("\n"));
     fs::write(folder.join("table.csv"), text).expect("written");
-    let bare = iwan(&["identify", "table.csv", "-o", "joint.json"], &folder);
+    let bare = iwan(&["identify", "table.csv"], &folder);
     assert_eq!(bare.status.code(), Some(0), "{bare:?}");
     assert!(String::from_utf8_lossy(&bare.stderr).contains("--stiffness"));
+    let asked = iwan(&["identify", "table.csv", "-o", "joint.json"], &folder);
+    assert_eq!(asked.status.code(), Some(2), "{asked:?}");
+    let told = String::from_utf8_lossy(&asked.stderr).into_owned();
+    assert!(told.contains("joint.json: there is no joint"), "{told}");
+    assert!(told.contains("--stiffness"), "{told}");
+    assert!(asked.stdout.is_empty());
     assert!(!folder.join("joint.json").exists());
     let given = iwan(
         &[
@@ -265,6 +271,8 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
     );
     assert_eq!(given.status.code(), Some(0), "{given:?}");
     assert!(folder.join("joint.json").exists());
+    let printed = String::from_utf8_lossy(&given.stdout);
+    assert!(!printed.contains("NaN"), "{printed}");
     let refused = iwan(
         &["identify", "table.csv", "--stiffness=-1", "-o", "x.json"],
         &folder,
@@ -289,6 +297,37 @@ fn the_commands_read_a_table_and_say_what_is_missing() {
     let diagnosis: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(diagnosis["schema"], "iwan-diagnosis/1");
     assert_eq!(diagnosis["verdict"], "clean");
+}
+
+/// A table without displacement makes no joint: what stands in the folder beside its findings was of
+/// an earlier diagnosis, or of somebody else.
+#[test]
+fn a_diagnosis_takes_away_only_what_one_wrote() {
+    let folder = folder("earlier");
+    let table = |name: &str, scale: f64| {
+        let rows = LEVELS
+            .map(power_law)
+            .map(|(_, force, loss)| (scale * force, loss));
+        let rows = rows.map(|(force, loss)| format!("{force:e},{loss:e}\n"));
+        let text = "force amplitude [N],dissipation [J]\n".to_string() + &rows.concat();
+        fs::write(folder.join(name), text).expect("written");
+    };
+    table("table.csv", 1.0);
+    let result = folder.join("result");
+    fs::create_dir(&result).expect("a folder");
+    let program = "# 2 cycles of sine, amplitude 180 N, 5.03 Hz\ntime [s],force [N]\n0.0,0.0\n";
+    let put = |name: &str, text: &str| fs::write(result.join(name), text).expect("written");
+    put("joint.json", "of somebody else");
+    put("next_experiment.csv", program);
+    let diagnosed = iwan(&["diagnose", "table.csv", "-o", "result"], &folder);
+    assert_eq!(diagnosed.status.code(), Some(0), "{diagnosed:?}");
+    assert!(result.join("joint.json").exists());
+    assert!(!result.join("next_experiment.csv").exists());
+    assert!(String::from_utf8_lossy(&diagnosed.stderr).contains("joint.json is of no diagnosis"));
+    let again = iwan(&["diagnose", "table.csv", "-o", "result"], &folder);
+    assert_eq!(again.status.code(), Some(0), "{again:?}");
+    assert!(!result.join("joint.json").exists());
+    assert!(String::from_utf8_lossy(&again.stderr).contains("earlier diagnosis is removed"));
 }
 
 /// The resonance of the bolted beam falls and rises again. With the modal mass its own joint is

@@ -243,11 +243,24 @@ fn bad_usage_is_refused() {
     simulate(&["--drive", "torque"], &["torque", "displacement"]);
     simulate(&["--columns", "force"], &["--columns `force`", "force=2"]);
     simulate(&["--columns", "force=0"], &["counted from 1"]);
+    let twice = ["--columns", "force=2,displacement=2"];
+    simulate(
+        &twice,
+        &["column 2 `F [N]`", "for force and for displacement"],
+    );
     simulate(
         &["--columns", "time=1,force=9"],
         &["load.csv", "column 9", "2 `F [N]`"],
     );
     simulate(&["--units", "force=stone"], &["`stone`", "kN"]);
+    folder.put("alone.csv", b"force [N]\n0\n50\n");
+    folder.assert_refuses(
+        &["simulate", "joint.json", "alone.csv", "-o", "o.csv"],
+        &[
+            "alone.csv, line 1",
+            "a load needs time, and force or displacement",
+        ],
+    );
     let no_displacement = ["--columns", "time=1,force=2", "--drive", "displacement"];
     simulate(&no_displacement, &["load.csv", "no column displacement"]);
 }
@@ -296,7 +309,7 @@ fn a_damaged_joint_is_refused() {
     );
     refuse(
         JOINT.replace("1e7", "-1e7").as_bytes(),
-        &["series_stiffness", "-10000000"],
+        &["series_stiffness", "-1e7", "above 0"],
     );
     refuse(
         JOINT.replace("\"SI\"", "\"US\"").as_bytes(),
@@ -304,6 +317,164 @@ fn a_damaged_joint_is_refused() {
     );
     let unknown = JOINT.replace("[]", r#"[{"name": "loose_bolt", "parameters": {}}]"#);
     refuse(unknown.as_bytes(), &["$.causes", "loose_bolt"]);
+}
+
+/// The results of a diagnosis have fixed names, under which something else may stand.
+#[test]
+fn a_diagnosis_replaces_no_input_and_no_measurement() {
+    let folder = Folder::new("results");
+    let rows = format!("{HEADER}0,0,0\n1,50,0.01\n2,-50,-0.01\n");
+    for name in ["next_experiment.csv", "report.html", "joint.json"] {
+        let path = folder.put(name, rows.as_bytes());
+        folder.put("other.csv", b"t [s],F [N],u [mm]\n0,0,0\n1,50,0.01\n");
+        let here = format!("./{name}");
+        let words = [name, "this is an input", "another folder"];
+        folder.assert_refuses(&["diagnose", name, "-o", "."], &words);
+        folder.assert_refuses(&["diagnose", "other.csv", &here, "-o", "."], &words);
+        let dummy = ["diagnose", "other.csv", "--dummy", name, "-o", "."];
+        folder.assert_refuses(&dummy, &words);
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(name, folder.0.join("link.csv")).expect("a link");
+            folder.assert_refuses(&["diagnose", "link.csv", "-o", "."], &words);
+            std::fs::remove_file(folder.0.join("link.csv")).expect("the link");
+        }
+        std::fs::remove_file(path).expect("the test file");
+    }
+    // What was measured under the program of an earlier diagnosis stays, whether it is given or not.
+    folder.put("next_experiment.csv", rows.as_bytes());
+    let words = ["next_experiment.csv", "no load program", "another folder"];
+    folder.assert_refuses(&["diagnose", "other.csv", "-o", "."], &words);
+}
+
+/// Before anything is read, so that no hour of computing is lost.
+#[test]
+fn a_place_that_takes_no_results_is_told_first() {
+    let folder = Folder::new("no place");
+    let long = "x".repeat(300);
+    let inside = format!("new/{long}");
+    let words = [long.as_str(), "cannot make this folder"];
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", &long], &words);
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", &inside], &words);
+    let words = [long.as_str(), "cannot write"];
+    folder.assert_refuses(&["identify", "none.csv", "-o", &long], &words);
+    std::fs::create_dir_all(folder.0.join("result/report.html")).expect("a folder");
+    let words = ["report.html", "this is a folder"];
+    folder.assert_refuses(&["diagnose", "none.csv", "-o", "result"], &words);
+}
+
+/// A stepped sine of a joint that slips; `sign` of its displacement.
+fn loops(sign: f64, scale: f64) -> String {
+    let rows = (0..300).map(|i| {
+        let phase = 0.1 * f64::from(i);
+        let displacement = sign * (0.01 * phase.sin() - 0.002 * phase.cos());
+        let (force, displacement) = (scale * 50.0 * phase.sin(), scale * displacement);
+        format!("{:?},{force:?},{displacement:?}\n", 0.01 * f64::from(i))
+    });
+    HEADER.to_string() + &rows.collect::<String>()
+}
+
+#[test]
+fn records_that_no_joint_makes_are_refused_before_any_fit() {
+    let folder = Folder::new("no joint");
+    folder.put("good.csv", loops(1.0, 1.0).as_bytes());
+    folder.put("one.csv", loops(-1.0, 1.0).as_bytes());
+    folder.put("two.csv", loops(-1.0, 2.0).as_bytes());
+    let words = ["one.csv, two.csv", "falls where the force rises", "sign"];
+    let records = ["good.csv", "one.csv", "two.csv", "-o", "new"];
+    folder.assert_refuses(&[&["identify"], &records[..]].concat(), &words);
+    folder.assert_refuses(&[&["diagnose"], &records[..]].concat(), &words);
+    let dummy = ["diagnose", "good.csv", "--dummy", "two.csv", "-o", "new"];
+    folder.assert_refuses(&dummy, &["two.csv", "falls where the force rises"]);
+    folder.put("huge.csv", loops(1.0, 1e200).as_bytes());
+    let words = [
+        "huge.csv, line 2, column 3 `displacement [mm]`",
+        "beyond all",
+        "unit",
+    ];
+    folder.assert_refuses(&["identify", "huge.csv", "-o", "new"], &words);
+    folder.put("tiny.csv", loops(1.0, 1e-200).as_bytes());
+    let words = [
+        "tiny.csv, line",
+        "column 2 `force [N]`",
+        "too small",
+        "unit",
+    ];
+    folder.assert_refuses(&["diagnose", "tiny.csv", "-o", "new"], &words);
+    folder.put(
+        "short.csv",
+        format!("{HEADER}0,0,0\n1,50,0.01\n").as_bytes(),
+    );
+    let words = ["short.csv", "2 samples are too few", "whole test"];
+    folder.assert_refuses(&["identify", "short.csv", "-o", "new"], &words);
+}
+
+#[test]
+fn values_that_no_file_has_a_use_for_are_refused() {
+    let folder = Folder::new("no use");
+    folder.put("loops.csv", loops(1.0, 1.0).as_bytes());
+    let levels = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|f: f64| {
+        let loss = 1e-9 * f.powf(2.6);
+        format!("{f},{loss:e},{:e}\n", 1e-6 * f)
+    });
+    let header = "force amplitude [N],dissipation [J],displacement amplitude [m]\n";
+    folder.put(
+        "table.csv",
+        (header.to_string() + &levels.concat()).as_bytes(),
+    );
+    for command in ["identify", "diagnose"] {
+        let refuse = |file: &str, option: &str, value: &str, words: &[&str]| {
+            folder.assert_refuses(&[command, file, option, value, "-o", "new"], words);
+        };
+        for option in ["--stiffness", "--modal-mass"] {
+            refuse("loops.csv", option, "1e6", &[option, "time history"]);
+            refuse("loops.csv", option, "-5", &["-5", "above zero"]);
+        }
+        refuse(
+            "table.csv",
+            "--stiffness",
+            "1e6",
+            &["--stiffness", "displacement"],
+        );
+        refuse(
+            "table.csv",
+            "--modal-mass",
+            "1",
+            &["--modal-mass", "resonance"],
+        );
+    }
+    let limit = ["diagnose", "loops.csv", "--limit-force", "-5", "-o", "new"];
+    folder.assert_refuses(&limit, &["'-5'", "above zero"]);
+}
+
+/// `iwan causes > /dev/full`: no defect of the program.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_told() {
+    let folder = Folder::new("full");
+    let joint = folder.put("joint.json", JOINT.as_bytes());
+    let load = folder.put("load.csv", b"t [s],F [N]\n0,0\n1,50\n");
+    let (joint, load) = (joint.to_string_lossy(), load.to_string_lossy());
+    for arguments in [
+        &["causes"][..],
+        &["--help"],
+        &["simulate", &joint, &load, "-o", "-"],
+    ] {
+        let full = std::fs::File::options().write(true).open("/dev/full");
+        let output = Command::new(env!("CARGO_BIN_EXE_iwan"))
+            .args(arguments)
+            .stdout(full.expect("a device of Linux"))
+            .output()
+            .expect("the binary runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(
+            message.contains("standard output"),
+            "{arguments:?}: {message}"
+        );
+    }
+    let words = ["/dev/full: cannot write"];
+    folder.assert_refuses(&["simulate", &joint, &load, "-o", "/dev/full"], &words);
 }
 
 /// `2>&1 | head` closes standard error before the last message: work is done and status told all the same.

@@ -106,6 +106,29 @@ fn equal_joints_give_equal_archives() {
     assert_eq!(fine(&folder, &arguments), fine(&folder, &arguments));
 }
 
+/// Importers that draw or optimise parameters ask for both bounds of each.
+#[test]
+fn every_parameter_has_a_least_and_a_largest_value() {
+    let folder = folder("bounds");
+    for version in ["2", "3"] {
+        let arguments = ["joint.json", "-o", "joint.fmu", "--fmi", version];
+        let archive = fine(&folder, &arguments);
+        let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+        let variables = xml.split("name=\"").skip(1);
+        let parameters = variables.filter(|text| {
+            let own = text.split("/>").next().unwrap_or_default();
+            own.contains("causality=\"parameter\"")
+        });
+        let mut count = 0;
+        for parameter in parameters {
+            count += 1;
+            let own = parameter.split("/>").next().unwrap_or_default();
+            assert!(own.contains(" min=\"") && own.contains(" max=\""), "{own}");
+        }
+        assert!(count >= 4, "{xml}");
+    }
+}
+
 /// One library serves both versions of FMI; the token is the GUID.
 #[test]
 fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
@@ -256,6 +279,22 @@ fn without_a_library_the_way_to_one_is_told() {
     assert_eq!(output.status.code(), Some(2), "{told}");
     assert!(told.contains(iwan::pack::BUILD_COMMAND), "{told}");
     assert!(told.contains("--binary PLATFORM=FILE"), "{told}");
+    // A diagnosis goes on without, and its findings say what is not there.
+    let bolt = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bolt-1.csv");
+    let output = Command::new(&program)
+        .current_dir(&folder)
+        .env_remove("IWAN_FMU_LIBRARY")
+        .arg("diagnose")
+        .arg(bolt)
+        .args(["-o", "result"])
+        .output()
+        .expect("the copy runs");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(printed.contains("joint.fmu was not written"), "{printed}");
+    assert!(printed.contains("--binary PLATFORM=FILE"), "{printed}");
+    assert!(folder.join("result/joint.json").exists());
+    assert!(!folder.join("result/joint.fmu").exists());
     // Beside the program, under the name it has in the archive, it is found.
     std::fs::copy(library(), folder.join("IwanJoint.so")).expect("a copy");
     let output = Command::new(&program)

@@ -59,7 +59,37 @@ fn a_refusal_names_line_column_and_value() {
         (
             "0,1,2\n1,abc,2\n",
             "text",
-            &["line 4", "column 2 `force [N]`", "`abc`"],
+            &[
+                "line 4",
+                "column 2 `force [N]`",
+                "`abc`",
+                "correct the cell",
+            ],
+        ),
+        (
+            "0,1,2\n1,1.5D-3,2\n",
+            "power",
+            &["line 4", "column 2", "`1.5D-3`", "with `e`"],
+        ),
+        (
+            "0,1,2\n1,1e308,2\n",
+            "beyond",
+            &[
+                "line 4",
+                "column 2 `force [N]`",
+                "`1e308`",
+                "check the unit",
+            ],
+        ),
+        (
+            "0,1,2e-90\n1,2,-3e-90\n2,2,0\n",
+            "vanishing",
+            &["line 4", "column 3 `displacement [mm]`", "`-3e-90`", "unit"],
+        ),
+        (
+            "1,1,2\n1e-200,2,3\n",
+            "tiny time",
+            &["line 4", "from 1 s to 1e-200 s"],
         ),
         (
             "0,1,2\n1,1,NaN\n",
@@ -85,9 +115,26 @@ fn a_refusal_names_line_column_and_value() {
         (
             "0,1,2\n1,2\n",
             "short",
-            &["line 4", "2 columns", "3", "`1,2`"],
+            &[
+                "line 4",
+                "2 columns",
+                "3",
+                "`1,2`",
+                "column 3 `displacement [mm]` is missing",
+                "complete the row",
+            ],
         ),
-        ("0,1,2\n1,2,3,4\n", "long", &["line 4", "4 columns", "3"]),
+        (
+            "0,1,2\n1,2,3,4\n",
+            "long",
+            &[
+                "line 4",
+                "4 columns",
+                "3",
+                "column 4 is beyond the header",
+                "decimal commas need semicolons or tabs",
+            ],
+        ),
         (
             "0,1,2\n2,1,2\n1,1,2\n",
             "back",

@@ -18,6 +18,8 @@ mod verdict;
 
 use super::BadInput;
 use super::input::Foreign;
+#[cfg(feature = "importer")]
+use crate::joint::error::shown;
 use std::path::PathBuf;
 
 /// Load an exported joint, run it and compare.
@@ -36,7 +38,12 @@ pub struct Check {
     record: Option<PathBuf>,
     /// The importer's communication step \[s\] to judge; by default the one that the archive
     /// suggests
-    #[arg(long, value_name = "SECONDS", requires = "record")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        requires = "record",
+        allow_negative_numbers = true
+    )]
     step: Option<f64>,
     /// Result as JSON
     #[arg(long)]
@@ -108,7 +115,9 @@ fn judged_step(
     let least = span / steps::MOST_JUDGED;
     match (asked, own) {
         (Some(step), _) if !(step >= least && step <= span) => Err(BadInput(format!(
-            "--step {step}: expected seconds from {least:.1e} up to the record's {span}"
+            "--step {}: expected seconds from {least:.1e} up to the record's {}",
+            shown(step),
+            shown(span)
         ))),
         (Some(step), _) => Ok((step, "as asked for")),
         (None, Some(step)) if step >= least && step <= span => Ok((step, "the archive's default")),

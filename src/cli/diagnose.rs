@@ -1,18 +1,21 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
+mod results;
+
 use super::input::{BesideTable, Records};
 use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
-use crate::diagnose::experiment::{Experiment, Limits, Options};
+use crate::diagnose::experiment::{Limits, Options};
 use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
-use crate::pack::{Archive, FmiVersion, Library};
+use crate::pack::{Archive, BUILD_COMMAND, FmiVersion, Library};
 use crate::read::Loaded;
 use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
 use crate::saved::{Judgement, Provenance, SavedJoint, write};
+use anyhow::Context;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -42,16 +45,16 @@ pub struct Diagnose {
 #[derive(Debug, Clone, Copy, clap::Args)]
 struct RigLimits {
     /// Largest force of the next experiment, newton
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     limit_force: Option<f64>,
     /// Largest displacement of the next experiment, metre (records driven by displacement)
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = positive, allow_negative_numbers = true)]
     limit_displacement: Option<f64>,
     /// Highest rate of its cycles, hertz
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     limit_rate: Option<f64>,
     /// Its longest duration, seconds
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     limit_duration: Option<f64>,
 }
 
@@ -73,18 +76,9 @@ impl RigLimits {
     }
 }
 
-/// The program as a load for `iwan simulate`.
-fn program(experiment: &Experiment) -> String {
-    let mut text = String::new();
-    for block in &experiment.blocks {
-        text += &format!("# {block}\n");
-    }
-    text += &format!("time [s],{} [{}]\n", experiment.drive, experiment.unit);
-    for (time, value) in experiment.time.iter().zip(&experiment.values) {
-        text += &format!("{time:?},{value:?}\n");
-    }
-    text
-}
+/// Where the physics refuses the best joint, the records are none of a joint.
+const NO_JOINT: &str = "no joint follows these records: check the sign and the order of the force and \
+                        displacement columns";
 
 /// Runs the subcommand: report.html, diagnosis.json, joint.json, joint.fmu and, where something is
 /// open, next_experiment.csv; all or none.
@@ -92,9 +86,15 @@ fn program(experiment: &Experiment) -> String {
 /// # Errors
 /// Bad input as in reading; [`BadInput`] for records that hold no time history.
 pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
-    output::admit_folder(&arguments.output)?;
+    let mut inputs = arguments.records.paths();
+    inputs.extend(arguments.dummy.as_deref());
+    results::admit(&arguments.output, &inputs)?;
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
+    arguments.beside.of_use(&loaded)?;
+    let preloads = super::preload::notes(&loaded);
+    preloads.iter().for_each(|note| output::tell(note));
+    let library = library();
     let start = Instant::now();
     let progress = |stage: &str| {
         let seconds = start.elapsed().as_secs_f64();
@@ -103,7 +103,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let (mut findings, missing) = match tables(&loaded)? {
         Some(tables) => {
             let found = diagnose_tables(&tables, &known, progress)
-                .map_err(|error| BadInput(error.to_string()))?;
+                .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
             (found.findings, found.missing)
         }
         None => {
@@ -112,11 +112,17 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
                 dummy: dummy(arguments)?,
             };
             let records = histories(&loaded)?;
-            (diagnose_with(&records, &options, progress)?, None)
+            let found = diagnose_with(&records, &options, progress)
+                .with_context(|| format!("{}: {NO_JOINT}", arguments.records.named()))?;
+            (found, None)
         }
     };
+    findings.notes.extend(preloads);
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
+    }
+    if missing.is_none() && library.is_none() {
+        findings.notes.push(without_library(drive(&findings)));
     }
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
@@ -129,23 +135,27 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
             None
         }
     };
-    let drive = match findings.judged.as_str() {
-        "force" => Drive::Displacement,
-        _ => Drive::Force,
+    let archive = match (&joint, library) {
+        (Some(joint), Some(library)) => {
+            let drive = drive(&findings);
+            Some(Archive::new(joint, "joint.json", drive, &[library])?.bytes()?)
+        }
+        _ => None,
     };
-    let archive = match &joint {
-        Some(joint) => archive(joint, drive)?,
-        None => None,
-    };
+    match arguments.json {
+        true => output::print(&format!("{diagnosis}\n"))?,
+        false => output::print(&text::render(&findings))?,
+    }
+    let earlier = results::is_of_one(&arguments.output);
     output::make_folder(&arguments.output)?;
     let mut files = vec![
         ("report.html", page.into_bytes()),
-        ("diagnosis.json", diagnosis.clone().into_bytes()),
+        ("diagnosis.json", diagnosis.into_bytes()),
     ];
     files.extend(joint.map(|text| ("joint.json", text.into_bytes())));
     let experiment = findings.outlook.experiment.as_ref();
     let experiment = experiment.filter(|experiment| !experiment.blocks.is_empty());
-    files.extend(experiment.map(|e| ("next_experiment.csv", program(e).into_bytes())));
+    files.extend(experiment.map(|e| (results::PROGRAM, results::program(e).into_bytes())));
     files.extend(archive.map(|bytes| ("joint.fmu", bytes)));
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
@@ -153,37 +163,35 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         progress(&path.display().to_string());
     }
     let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    clear(&arguments.output, &written)?;
-    match arguments.json {
-        true => output::print(&format!("{diagnosis}\n")),
-        false => output::print(&text::render(&findings)),
-    }
-}
-
-/// Takes away what an earlier diagnosis left in the folder and this one has not written anew: a joint
-/// or a programme beside findings that are not its own would mislead.
-fn clear(folder: &std::path::Path, written: &[&str]) -> anyhow::Result<()> {
-    for name in ["joint.json", "joint.fmu", "next_experiment.csv"] {
-        let path = folder.join(name);
-        if !written.contains(&name) && path.is_file() {
-            std::fs::remove_file(&path)?;
-            output::tell(&format!(
-                "{} of an earlier diagnosis is removed",
-                path.display()
-            ));
-        }
-    }
+    results::clear(&arguments.output, &written, earlier)?;
     Ok(())
 }
 
-/// The unit for this machine; said and left out where there is no library for it.
-fn archive(joint: &str, drive: Drive) -> anyhow::Result<Option<Vec<u8>>> {
-    let library = Library::of_this_machine(FmiVersion::Two)
-        .map_err(|error| output::tell(&format!("no joint.fmu is written: {error}")))
-        .ok();
-    let bytes =
-        library.map(|library| Archive::new(joint, "joint.json", drive, &[library])?.bytes());
-    Ok(bytes.transpose()?)
+/// What the exported joint is driven by: the channel that was prescribed here.
+fn drive(findings: &Findings) -> Drive {
+    match findings.judged.as_str() {
+        "force" => Drive::Displacement,
+        _ => Drive::Force,
+    }
+}
+
+/// The library for this machine; told and done without where there is none.
+fn library() -> Option<Library> {
+    Library::of_this_machine(FmiVersion::Two)
+        .map_err(|error| output::tell(&format!("joint.fmu will not be written: {error}")))
+        .ok()
+}
+
+/// What the findings say of a joint.fmu that is not there.
+fn without_library(drive: Drive) -> String {
+    let drive = match drive {
+        Drive::Force => "",
+        Drive::Displacement => " --drive displacement",
+    };
+    format!(
+        "joint.fmu was not written, for want of a shared library of this program. With the one that `{BUILD_COMMAND}` \
+         leaves in the source folder, `iwan export joint.json -o joint.fmu{drive} --binary PLATFORM=FILE` makes it."
+    )
 }
 
 /// The amplitude tables, where the files are all tables; `None` where none is.
@@ -213,6 +221,7 @@ fn dummy(arguments: &Diagnose) -> anyhow::Result<Option<Record>> {
     let loaded = crate::read::file(file, &arguments.records.foreign.options()?)?;
     super::input::tell_notes(file, &loaded.notes);
     let mut records = histories(std::slice::from_ref(&loaded))?;
+    super::signs::admit(records.iter().map(|record| (file.as_path(), record)))?;
     Ok(records.pop())
 }
 

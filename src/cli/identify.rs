@@ -19,9 +19,9 @@ pub struct Identify {
     records: Records,
     #[command(flatten)]
     beside: BesideTable,
-    /// File to write
-    #[arg(short, long, value_name = "JOINT.json", default_value = "joint.json")]
-    output: PathBuf,
+    /// File to write; by default joint.json
+    #[arg(short, long, value_name = "JOINT.json")]
+    output: Option<PathBuf>,
     /// Report as JSON instead of text
     #[arg(long)]
     json: bool,
@@ -30,22 +30,38 @@ pub struct Identify {
 /// Identifies, prints the fit report and writes joint.json.
 ///
 /// Of an amplitude table that lacks the stiffness, or the joint's own force, the report is printed
-/// and no joint written: what is missing and how to give it is said. That is no error of the input.
+/// and no joint written: what is missing and how to give it is said. That is no error of the input
+/// where no file was asked for.
 ///
 /// # Errors
-/// Of reading; [`BadInput`] where the records hold nothing to identify.
+/// Of reading; [`BadInput`] where the records hold nothing to identify, or no joint for the file that
+/// was asked for.
 pub fn run(arguments: &Identify) -> anyhow::Result<()> {
-    output::admit(&arguments.output, &arguments.records.paths())?;
+    let asked = arguments.output.as_deref();
+    let output = asked.unwrap_or(Path::new("joint.json"));
+    output::admit(output, &arguments.records.paths())?;
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
+    arguments.beside.of_use(&loaded)?;
+    let preloads = super::preload::notes(&loaded);
+    preloads.iter().for_each(|note| output::tell(note));
     output::tell(&format!("identifying from {} record(s) …", loaded.len()));
-    let found = Found::from(&loaded, &known).map_err(|e| BadInput(e.to_string()))?;
+    let mut found = Found::from(&loaded, &known)
+        .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
+    found.noticed.extend(preloads);
+    if let (Some(file), Err(why)) = (asked, &found.joint) {
+        return Err(BadInput(format!(
+            "{}: there is no joint to write: {why}; without `-o` the report alone is printed",
+            file.display()
+        ))
+        .into());
+    }
     let report = if arguments.json {
         json::report(&found)
     } else {
         text::report(&found)
     };
-    if arguments.output == Path::new("-") {
+    if output == Path::new("-") {
         // The joint has the standard output for itself.
         output::tell(report.trim_end());
     } else {
@@ -54,10 +70,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     let joint = match &found.joint {
         Ok(joint) => joint,
         Err(why) => {
-            output::tell(&format!(
-                "{} is not written: {why}",
-                arguments.output.display()
-            ));
+            output::tell(&format!("{} is not written: {why}", output.display()));
             return Ok(());
         }
     };
@@ -66,11 +79,11 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
         provenance: super::provenance::provenance(&loaded, "identify"),
         intervals: intervals(&found),
     };
-    output::write(&arguments.output, |out| {
+    output::write(output, |out| {
         out.write_all(crate::saved::write(&saved).as_bytes())?;
         Ok(())
     })?;
-    output::tell(&format!("wrote {}", arguments.output.display()));
+    output::tell(&format!("wrote {}", output.display()));
     Ok(())
 }
 

@@ -1,9 +1,11 @@
 //! What several subcommands read, and what they say of it.
 
 use super::BadInput;
-use crate::identify::table::Known;
+use crate::identify::table::{Known, at_resonance};
 use crate::joint::Joint;
+use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
+use crate::record::{AmplitudeTable, Measurement};
 use std::path::{Path, PathBuf};
 
 /// How to read files whose header does not say what they hold.
@@ -43,7 +45,7 @@ impl Records {
     ///
     /// # Errors
     /// [`ReadError`] of the first bad file; [`BadInput`] for one content under two names: a copy
-    /// would count as a second test, and as data that no fit has seen.
+    /// would count as a second test, and as data that no fit has seen; or for signs that no joint has.
     pub fn load(&self) -> anyhow::Result<Vec<Loaded>> {
         let options = self.foreign.options()?;
         let mut loaded: Vec<Loaded> = Vec::new();
@@ -57,7 +59,28 @@ impl Records {
             tell_notes(file, &next.notes);
             loaded.push(next);
         }
+        let files = self.files.iter().zip(&loaded);
+        super::signs::admit(
+            files.filter_map(|(file, loaded)| match &loaded.measurement {
+                Measurement::History(record) => Some((file.as_path(), record)),
+                Measurement::Amplitudes(_) => None,
+            }),
+        )?;
         Ok(loaded)
+    }
+
+    /// The names of the files, for a message about all of them.
+    pub fn named(&self) -> String {
+        match &self.files[..] {
+            [first, _, _, _, ..] => {
+                format!("{} and {} more", first.display(), self.files.len() - 1)
+            }
+            few => few
+                .iter()
+                .map(|file| file.display().to_string())
+                .collect::<Vec<_>>()
+                .join(", "),
+        }
     }
 
     /// The files as inputs that no output may replace.
@@ -70,10 +93,10 @@ impl Records {
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct BesideTable {
     /// Amplitude tables: stiffness of the joint at small load, where no displacement is kept
-    #[arg(long, value_name = "N/m")]
+    #[arg(long, value_name = "N/m", allow_negative_numbers = true)]
     stiffness: Option<f64>,
     /// Amplitude tables at phase resonance: modal mass, for the joint's own force
-    #[arg(long, value_name = "kg")]
+    #[arg(long, value_name = "kg", allow_negative_numbers = true)]
     modal_mass: Option<f64>,
 }
 
@@ -88,7 +111,10 @@ impl BesideTable {
             ("--modal-mass", self.modal_mass),
         ] {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                return Err(BadInput(format!("{option} {value}: must be positive")));
+                return Err(BadInput(format!(
+                    "{option} {}: must be a number above zero",
+                    shown(value)
+                )));
             }
         }
         if self.stiffness.is_some() && self.modal_mass.is_some() {
@@ -100,6 +126,43 @@ impl BesideTable {
             stiffness: self.stiffness,
             modal_mass: self.modal_mass,
         })
+    }
+
+    /// Refuses a value that no file of these has a use for: a joint would be told to rest on it.
+    ///
+    /// # Errors
+    /// [`BadInput`] naming the option, and why.
+    pub fn of_use(&self, loaded: &[Loaded]) -> Result<(), BadInput> {
+        let tables: Vec<&AmplitudeTable> = loaded
+            .iter()
+            .filter_map(|loaded| match &loaded.measurement {
+                Measurement::Amplitudes(table) => Some(table),
+                Measurement::History(_) => None,
+            })
+            .collect();
+        let of_stiffness =
+            |table: &&AmplitudeTable| table.displacement_amplitude.is_none() || at_resonance(table);
+        let of_mass = |table: &&AmplitudeTable| table.frequency.is_some() && at_resonance(table);
+        let unused = |option: &str, why: &str| {
+            Err(BadInput(format!(
+                "{option}: nothing here has a use for it: {why}; leave it out"
+            )))
+        };
+        const HISTORY: &str = "a time history tells the joint's own force and stiffness";
+        match (self.stiffness, self.modal_mass) {
+            (Some(_), _) if tables.is_empty() => unused("--stiffness", HISTORY),
+            (_, Some(_)) if tables.is_empty() => unused("--modal-mass", HISTORY),
+            (Some(_), _) if !tables.iter().any(of_stiffness) => unused(
+                "--stiffness",
+                "the displacement amplitudes of the table tell it",
+            ),
+            (_, Some(_)) if !tables.iter().any(of_mass) => unused(
+                "--modal-mass",
+                "it is for a table with displacement amplitudes and frequencies, taken at phase \
+                 resonance, where the loss is force times displacement times pi",
+            ),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -7,7 +7,9 @@ mod export;
 mod identify;
 pub mod input;
 pub mod output;
+mod preload;
 mod provenance;
+mod signs;
 mod simulate;
 
 use clap::{Parser, Subcommand};
@@ -50,13 +52,12 @@ pub fn main() -> ExitCode {
     let command = match CommandLine::try_parse() {
         Ok(line) => line.command,
         Err(refusal) => {
-            // `--help` and `--version` come this way too; a closed stdout is no failure of theirs
-            let _ = refusal.print();
-            return if refusal.use_stderr() {
-                BAD_INPUT.into()
-            } else {
-                ExitCode::SUCCESS
-            };
+            if refusal.use_stderr() {
+                let _ = refusal.print();
+                return BAD_INPUT.into();
+            }
+            // `--help` and `--version` come this way, too
+            return conclude(|| output::print(&refusal.render().to_string())).into();
         }
     };
     std::panic::set_hook(Box::new(|panic| {

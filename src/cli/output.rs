@@ -34,20 +34,64 @@ pub fn admit(path: &Path, inputs: &[&Path]) -> Result<(), BadInput> {
         (Ok(output), Ok(input)) => output == input,
         _ => false,
     };
-    match inputs.iter().find(same) {
-        Some(_) => Err(BadInput(format!(
+    if inputs.iter().any(|input| same(&input)) {
+        return Err(BadInput(format!(
             "{}: this is an input; write the result to another file",
             path.display()
-        ))),
-        None => Ok(()),
+        )));
+    }
+    // a device or a pipe is written to as it is; a link stays a link, and what it points to is replaced
+    match path.metadata() {
+        Ok(found) if !found.is_file() => Ok(()),
+        _ => takes(&path.canonicalize().unwrap_or_else(|_| path.to_path_buf())),
     }
 }
 
-/// Refuses, before any work is done, a folder that could not be made or written into.
+/// Refuses a file that cannot be made, or made anew: by making its draft.
+fn takes(target: &Path) -> Result<(), BadInput> {
+    let draft = Draft::new(target);
+    File::create(&draft.path).map(drop).map_err(|error| {
+        BadInput(format!(
+            "{}: cannot write: {error}; name another place",
+            target.display()
+        ))
+    })
+}
+
+/// Refuses, before any work is done, a folder that could not be made or written into, or in which one
+/// of the files to write is an input.
 ///
 /// # Errors
 /// [`BadInput`] naming the path and the way out.
-pub fn admit_folder(path: &Path) -> Result<(), BadInput> {
+pub fn admit_folder(path: &Path, files: &[&str], inputs: &[&Path]) -> Result<(), BadInput> {
+    is_no_file(path)?;
+    // Made and taken away again: only the system knows whether it can be.
+    let made = Made::new(path)?;
+    takes(&path.join(files.first().unwrap_or(&"iwan")))?;
+    drop(made);
+    for file in files.iter().map(|name| path.join(name)) {
+        let Ok(there) = file.canonicalize() else {
+            continue;
+        };
+        let shown = file.display();
+        if there.is_dir() {
+            return Err(BadInput(format!(
+                "{shown}: this is a folder where a file is to be written; move it or write into another \
+                 folder"
+            )));
+        }
+        let same = |input: &&&Path| input.canonicalize().is_ok_and(|input| input == there);
+        if inputs.iter().any(|input| same(&input)) {
+            return Err(BadInput(format!(
+                "{shown}: this is an input, and a result of that name would replace it; write into \
+                 another folder or move the file"
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn is_no_file(path: &Path) -> Result<(), BadInput> {
     let shown = path.display();
     if path.exists() && !path.is_dir() {
         return Err(BadInput(format!(
@@ -69,16 +113,45 @@ pub fn admit_folder(path: &Path) -> Result<(), BadInput> {
 /// # Errors
 /// [`BadInput`] as [`admit_folder`] or in the system's words.
 pub fn make_folder(path: &Path) -> Result<(), BadInput> {
-    admit_folder(path)?;
-    if path.is_dir() {
-        return Ok(());
+    is_no_file(path)?;
+    Made::new(path)?.keep();
+    Ok(())
+}
+
+/// Folders that were made, the innermost first; taken away again unless they are kept.
+struct Made(Vec<PathBuf>);
+
+impl Made {
+    fn new(path: &Path) -> Result<Made, BadInput> {
+        let missing = path
+            .ancestors()
+            .take_while(|above| *above != Path::new("") && !above.is_dir());
+        // before it is tried: what is made of a path that cannot be made goes away, too
+        let made = Made(missing.map(Path::to_path_buf).collect());
+        if made.0.is_empty() {
+            return Ok(made);
+        }
+        match fs::create_dir_all(path) {
+            Ok(()) => Ok(made),
+            Err(error) => Err(BadInput(format!(
+                "{}: cannot make this folder: {error}; name another one",
+                path.display()
+            ))),
+        }
     }
-    fs::create_dir_all(path).map_err(|error| {
-        BadInput(format!(
-            "{}: cannot make this folder: {error}",
-            path.display()
-        ))
-    })
+
+    fn keep(mut self) {
+        self.0.clear();
+    }
+}
+
+impl Drop for Made {
+    fn drop(&mut self) {
+        for folder in &self.0 {
+            // only an empty folder can be removed so: nothing of others is lost
+            let _ = fs::remove_dir(folder);
+        }
+    }
 }
 
 /// Writes a file by `fill`. Until all of it is on the disk a file of that name stays as it was;
@@ -97,15 +170,19 @@ where
     }
     admit(path, &[])?;
     let refused = |error: io::Error| BadInput(format!("{}: cannot write: {error}", path.display()));
+    let sorted = |error: anyhow::Error| match error.downcast::<io::Error>() {
+        Ok(error) => refused(error).into(),
+        Err(other) => other,
+    };
     // a link stays a link: what it points to is replaced
     let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
         let mut out = File::options().write(true).open(&target).map_err(refused)?;
-        return fill(&mut out);
+        return fill(&mut out).map_err(sorted);
     }
     let draft = Draft::new(&target);
     let mut out = BufWriter::new(File::create(&draft.path).map_err(refused)?);
-    fill(&mut out)?;
+    fill(&mut out).map_err(sorted)?;
     let file = out
         .into_inner()
         .map_err(|error| refused(error.into_error()))?;
@@ -135,16 +212,18 @@ pub fn tell(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
+/// A closed standard output is no error; one that takes no more is one that the user can mend.
 fn unless_closed(result: anyhow::Result<()>) -> anyhow::Result<()> {
-    match result {
-        Err(error)
-            if error
-                .downcast_ref::<io::Error>()
-                .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe) =>
-        {
-            Ok(())
-        }
-        other => other,
+    let Err(error) = result else {
+        return Ok(());
+    };
+    match error.downcast::<io::Error>() {
+        Ok(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Ok(error) => Err(BadInput(format!(
+            "standard output: cannot write: {error}; make room or send it elsewhere"
+        ))
+        .into()),
+        Err(other) => Err(other),
     }
 }
 

@@ -4,6 +4,7 @@ use super::calls::Mode;
 use super::location::LocationError;
 use super::snapshot::SnapshotError;
 use crate::joint::JointError;
+use crate::joint::error::{admitted, shown};
 use crate::saved::SavedError;
 use crate::variables::VariableError;
 use std::path::PathBuf;
@@ -89,7 +90,11 @@ pub enum Refusal {
     )]
     Fixed { name: String },
     /// A value outside its bounds, or no number.
-    #[error("`{name}`: expected a number from {lower} to {upper}, came {came}")]
+    #[error(
+        "`{name}`: expected a value that is {}, came {}",
+        admitted(*.lower, *.upper),
+        shown(*.came)
+    )]
     OutOfRange {
         name: String,
         lower: f64,
@@ -126,20 +131,24 @@ pub enum Refusal {
     #[error("expected no call: modelDescription.xml does not offer {capability}")]
     NotOffered { capability: &'static str },
     /// A step that cannot be.
-    #[error("communicationStepSize: expected a finite number from 0 on, came {came}")]
+    #[error("communicationStepSize: expected a finite number from 0 on, came {}", shown(*.came))]
     StepSize { came: f64 },
     /// A step from elsewhere.
-    #[error("currentCommunicationPoint: expected {expected} s (to {tolerance:e} s), came {came} s")]
+    #[error(
+        "currentCommunicationPoint: expected {} s (to {tolerance:e} s), came {} s",
+        shown(*.expected),
+        shown(*.came)
+    )]
     CommunicationPoint {
         expected: f64,
         tolerance: f64,
         came: f64,
     },
     /// A step past the end.
-    #[error("expected a step that ends by the stop time {stop} s, came one to {came} s")]
+    #[error("expected a step that ends by the stop time {} s, came one to {} s", shown(*.stop), shown(*.came))]
     PastStop { stop: f64, came: f64 },
     /// Times of an experiment that cannot be.
-    #[error("expected finite times with stop after start, came start {start} s, {}", stopping(*stop))]
+    #[error("expected finite times with stop after start, came start {} s, {}", shown(*.start), stopping(*stop))]
     Times { start: f64, stop: Option<f64> },
     /// A status that is not asked like this.
     #[error("expected status kind {expected}, came {came}")]
@@ -156,5 +165,7 @@ pub enum Refusal {
 }
 
 fn stopping(stop: Option<f64>) -> String {
-    stop.map_or("no stop".to_owned(), |stop| format!("stop {stop} s"))
+    stop.map_or("no stop".to_owned(), |stop| {
+        format!("stop {} s", shown(stop))
+    })
 }

@@ -1,11 +1,37 @@
 //! Why a joint, a step or a saved state is refused.
 
+/// A number for a message: with few digits far from one, where all of them would be three hundred.
+pub fn shown(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-4..1e6 => value.to_string(),
+        size if size.is_finite() => format!("{value:e}"),
+        _ => value.to_string(),
+    }
+}
+
+/// The values that two bounds admit, in words. A bound at the end of what numbers can tell is none.
+pub fn admitted(lower: f64, upper: f64) -> String {
+    let above = match lower {
+        f64::MIN_POSITIVE => Some("above 0".to_owned()),
+        lower if lower > f64::MIN => Some(format!("at least {}", shown(lower))),
+        _ => None,
+    };
+    let below = (upper < f64::MAX).then(|| format!("at most {}", shown(upper)));
+    match (above, below) {
+        (Some(above), Some(below)) => format!("{above} and {below}"),
+        (None, None) => "a finite number".to_owned(),
+        (above, below) => above.or(below).unwrap_or_default(),
+    }
+}
+
 /// Why a step or a joint was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JointError {
     /// A force at or beyond full slip: no displacement answers it.
     #[error(
-        "force {force} N reaches full slip at {full_slip} N: no displacement answers it; drive the joint in displacement or lower the load"
+        "force {} N reaches full slip at {} N: no displacement answers it; drive the joint in displacement or lower the load",
+        shown(*.force),
+        shown(*.full_slip)
     )]
     BeyondFullSlip {
         /// The force asked for [N].
@@ -14,7 +40,7 @@ pub enum JointError {
         full_slip: f64,
     },
     /// A parameter outside its glossary's range.
-    #[error("parameter `{name}` is {value}: it must lie in [{lower}, {upper}]")]
+    #[error("parameter `{name}` is {}: it must be {}", shown(*.value), admitted(*.lower, *.upper))]
     OutOfRange {
         /// Glossary name.
         name: String,
@@ -26,7 +52,7 @@ pub enum JointError {
         upper: f64,
     },
     /// An input that is no number.
-    #[error("input {value} at t = {time} s is not a finite number")]
+    #[error("input {value} at t = {} s is not a finite number", shown(*.time))]
     NotFinite {
         /// Time [s].
         time: f64,
@@ -34,7 +60,7 @@ pub enum JointError {
         value: f64,
     },
     /// An input so large that the equation of the joint has no finite root.
-    #[error("input {value} at t = {time} s is beyond all that this joint can answer in numbers")]
+    #[error("input {} at t = {} s is beyond all that this joint can answer in numbers", shown(*.value), shown(*.time))]
     OutOfReach {
         /// Time [s].
         time: f64,
@@ -42,7 +68,7 @@ pub enum JointError {
         value: f64,
     },
     /// Time running back.
-    #[error("time runs back from {from} s to {to} s")]
+    #[error("time runs back from {} s to {} s", shown(*.from), shown(*.to))]
     TimeRunsBack {
         /// Last accepted time [s].
         from: f64,
@@ -60,7 +86,7 @@ pub enum JointError {
         expected: usize,
     },
     /// An error at one sample of a record.
-    #[error("at t = {time} s (sample {sample}): {reason}")]
+    #[error("at t = {} s (sample {sample}): {reason}", shown(*.time))]
     AtSample {
         /// Time [s].
         time: f64,
@@ -75,4 +101,41 @@ pub enum JointError {
         /// What differs.
         reason: String,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_number_of_a_message_has_three_hundred_digits() {
+        assert_eq!(shown(0.0), "0");
+        assert_eq!(shown(-150.0), "-150");
+        assert_eq!(shown(1e-4), "0.0001");
+        assert_eq!(shown(1.5e-5), "1.5e-5");
+        assert_eq!(shown(-1e300), "-1e300");
+        assert_eq!(shown(f64::INFINITY), "inf");
+        let range = |lower, upper| JointError::OutOfRange {
+            name: "compliance".into(),
+            value: 0.0,
+            lower,
+            upper,
+        };
+        for (lower, upper, said) in [
+            (f64::MIN_POSITIVE, f64::INFINITY, "above 0"),
+            (f64::MIN_POSITIVE, f64::MAX, "above 0"),
+            (-1.0, 4.0, "at least -1 and at most 4"),
+            (f64::NEG_INFINITY, 1e300, "at most 1e300"),
+            (f64::MIN, f64::MAX, "a finite number"),
+        ] {
+            let message = range(lower, upper).to_string();
+            let expected = format!("parameter `compliance` is 0: it must be {said}");
+            assert_eq!(message, expected);
+        }
+        let far = JointError::OutOfReach {
+            time: 1e-300,
+            value: 1e300,
+        };
+        assert!(far.to_string().len() < 100, "{far}");
+    }
 }

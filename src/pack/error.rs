@@ -14,7 +14,11 @@ pub enum PackError {
     #[error(transparent)]
     Variables(#[from] VariableError),
     /// A parameter outside its own bounds.
-    #[error("parameter `{name}` is {value}: it must lie in [{lower}, {upper}]")]
+    #[error(
+        "parameter `{name}` is {}: it must be {}",
+        crate::joint::error::shown(*.value),
+        crate::joint::error::admitted(*.lower, *.upper)
+    )]
     StartOutOfBounds {
         /// Name of the variable.
         name: String,
@@ -27,8 +31,9 @@ pub enum PackError {
     },
     /// No library to pack.
     #[error(
-        "no shared library for the FMU, looked for {}; build it with `{}`, or name one with \
-         `--binary PLATFORM=FILE` or the environment variable {}",
+        "no shared library for the FMU, looked for {}; build it in the source folder with `{}`, then copy \
+         it to the last of these places, name it in the environment variable {}, or pack it with `iwan \
+         export joint.json -o joint.fmu --binary PLATFORM=FILE`",
         looked.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "),
         super::library::BUILD_COMMAND,
         super::library::VARIABLE

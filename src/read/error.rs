@@ -78,7 +78,7 @@ pub enum ReadError {
     },
     /// A single column.
     #[error(
-        "{}, line {line}: one column only, `{text}`; columns are separated by comma, semicolon or tab, and a measurement needs force and displacement",
+        "{}, line {line}: one column only, `{text}`; columns are separated by comma, semicolon or tab, and {needed}",
         .file.display()
     )]
     OneColumn {
@@ -88,6 +88,8 @@ pub enum ReadError {
         line: usize,
         /// That line.
         text: String,
+        /// What the table has to hold.
+        needed: &'static str,
     },
     /// Numbers where the header should stand.
     #[error(
@@ -148,6 +150,18 @@ pub enum ReadError {
         /// Columns there are.
         found: String,
     },
+    /// One column chosen for two quantities.
+    #[error(
+        "{spot}: --columns takes it for {first} and for {second}; give each a column of its own"
+    )]
+    SameColumn {
+        /// The column.
+        spot: Spot,
+        /// The quantity that stands first in `--columns`.
+        first: Quantity,
+        /// The later one.
+        second: Quantity,
+    },
     /// A quantity without unit.
     #[error(
         "{spot}: no unit; write it in the header as `{quantity} [{example}]` or give --units {quantity}={example}"
@@ -173,7 +187,10 @@ pub enum ReadError {
         quantity: Quantity,
     },
     /// A row longer or shorter than the header.
-    #[error("{}, line {line}: {found} columns where the table has {expected}: `{text}`", .file.display())]
+    #[error(
+        "{}, line {line}: {found} columns where the table has {expected}: `{text}`; {fault}",
+        .file.display()
+    )]
     Ragged {
         /// The file.
         file: PathBuf,
@@ -185,6 +202,8 @@ pub enum ReadError {
         expected: usize,
         /// The row, shortened.
         text: String,
+        /// The first column that is missing or in excess, and the way out.
+        fault: String,
     },
     /// Nothing where a number should stand.
     #[error("{spot}: empty cell; a gap cannot be simulated: cut the record there or fill it in")]
@@ -199,13 +218,33 @@ pub enum ReadError {
         spot: Spot,
         /// The text.
         value: String,
-        /// What may have happened; empty or `; …`.
+        /// What may have happened, and the way out: `; …`.
         hint: &'static str,
     },
     /// NaN, infinity, or beyond what a double holds.
     #[error("{spot}: `{value}` is not a finite number; remove the sample or cut the record there")]
     NotFinite {
         /// The cell.
+        spot: Spot,
+        /// The text.
+        value: String,
+    },
+    /// A number so large that what is made of it is none.
+    #[error(
+        "{spot}: `{value}` is beyond all that can be computed with (1e30 in SI units); remove the sample, or check the unit"
+    )]
+    Beyond {
+        /// The cell.
+        spot: Spot,
+        /// The text.
+        value: String,
+    },
+    /// A column whose largest number is so small that its powers vanish.
+    #[error(
+        "{spot}: `{value}` is the largest of its column, and too small to be computed with (1e-30 in SI units); check the unit"
+    )]
+    Vanishing {
+        /// The cell of the largest number.
         spot: Spot,
         /// The text.
         value: String,

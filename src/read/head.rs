@@ -68,12 +68,12 @@ struct Row {
     end: usize,
 }
 
-/// Finds the head.
+/// Finds the head; `needed` says what the table has to hold, for where it does not.
 ///
 /// # Errors
 /// [`ReadError::Empty`], [`ReadError::OneColumn`], [`ReadError::NoHeader`],
 /// [`ReadError::NoRows`].
-pub fn find(source: &Source, options: &Options) -> Result<Head, ReadError> {
+pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<Head, ReadError> {
     let text = source.text.as_str();
     let separator = separator(text);
     let mut rows = reader(text, separator);
@@ -81,7 +81,8 @@ pub fn find(source: &Source, options: &Options) -> Result<Head, ReadError> {
     let mut skipped = 0;
     while let Some(row) = next(&mut rows, source)? {
         if options.columns.is_empty() {
-            return declared(source, separator, &row, next(&mut rows, source)?.as_ref());
+            let below = next(&mut rows, source)?;
+            return declared(source, separator, &row, below.as_ref(), needed);
         }
         if holds_chosen_numbers(&row.cells, options) {
             let mut head = declared_by_options(text, separator, &row, before.as_ref());
@@ -112,6 +113,7 @@ fn declared(
     separator: u8,
     first: &Row,
     second: Option<&Row>,
+    needed: &'static str,
 ) -> Result<Head, ReadError> {
     let text = source.text.as_str();
     let line = line_at(text, first.end);
@@ -123,6 +125,7 @@ fn declared(
             file,
             line,
             text: shown,
+            needed,
         });
     }
     let cells = |row: &StringRecord| row.iter().map(|cell| cell.trim().to_string()).collect();

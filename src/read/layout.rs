@@ -32,7 +32,7 @@ impl<'a> Layout<'a> {
     /// Matches header cells, or the choices of `--columns`, to quantities.
     ///
     /// # Errors
-    /// [`ReadError::Twice`], [`ReadError::NoSuchColumn`].
+    /// [`ReadError::Twice`], [`ReadError::NoSuchColumn`], [`ReadError::SameColumn`].
     pub fn new(
         source: &'a Source,
         head: &'a Head,
@@ -53,6 +53,13 @@ impl<'a> Layout<'a> {
         }
         for (quantity, choice) in &options.columns {
             let index = layout.chosen(*quantity, choice)?;
+            if let Some((first, _)) = layout.found.iter().find(|(_, taken)| *taken == index) {
+                return Err(ReadError::SameColumn {
+                    spot: layout.spot(index),
+                    first: *first,
+                    second: *quantity,
+                });
+            }
             layout.found.push((*quantity, index));
         }
         Ok(layout)

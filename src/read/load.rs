@@ -62,7 +62,11 @@ pub fn load_table(path: &Path, options: &Options) -> Result<LoadTable, ReadError
         source,
         head,
         mut notes,
-    } = Opened::new(path, options)?;
+    } = Opened::new(
+        path,
+        options,
+        "a load needs time, and force or displacement",
+    )?;
     let layout = super::Layout::new(&source, &head, options)?;
     let prescribed = [Quantity::Force, Quantity::Displacement];
     let required: Vec<Quantity> = prescribed.into_iter().filter(|q| layout.has(*q)).collect();

@@ -56,7 +56,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
         source,
         head,
         mut notes,
-    } = Opened::new(path, options)?;
+    } = Opened::new(path, options, "a measurement needs force and displacement")?;
     let layout = Layout::new(&source, &head, options)?;
     let is_history = layout.has(Quantity::Force) && layout.has(Quantity::Displacement);
     let is_table = layout.has(Quantity::ForceAmplitude) && layout.has(Quantity::Dissipation);
@@ -121,9 +121,10 @@ struct Opened {
 }
 
 impl Opened {
-    fn new(path: &Path, options: &Options) -> Result<Opened, ReadError> {
+    /// `needed` says what the table has to hold, for where it does not.
+    fn new(path: &Path, options: &Options, needed: &'static str) -> Result<Opened, ReadError> {
         let mut source = Source::open(path)?;
-        let mut head = head::find(&source, options)?;
+        let mut head = head::find(&source, options, needed)?;
         let mut notes = std::mem::take(&mut source.notes);
         notes.append(&mut head.notes);
         Ok(Opened {

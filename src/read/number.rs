@@ -16,14 +16,17 @@ pub enum Mark {
 pub enum Fault {
     /// Nothing in it.
     Empty,
-    /// Text; with what may have happened, empty or `; …`.
+    /// Text; with what may have happened and the way out, `; …`.
     Text(&'static str),
     /// NaN, infinite, or beyond a double.
     NotFinite,
 }
 
-const MIXED: &str = "; this file mixes decimal points and decimal commas";
-const THOUSANDS: &str = "; separators of thousands are not understood";
+const MIXED: &str =
+    "; this file mixes decimal points and decimal commas: write all numbers with one of them";
+const THOUSANDS: &str = "; separators of thousands are not understood: remove them";
+const POWER: &str = "; write powers of ten with `e`, such as 1.5e-3";
+const OTHER: &str = "; correct the cell, or cut the record there";
 
 /// The number in a cell; `mark` remembers the file's decimal mark.
 pub fn parse(cell: &str, mark: &mut Mark) -> Result<f64, Fault> {
@@ -67,5 +70,27 @@ fn with_comma(cell: &str) -> Result<f64, Fault> {
         .bytes()
         .all(|b| b.is_ascii_digit() || b".,+-eE '".contains(&b));
     let is_grouped = digits_only && (commas > 0 || cell.contains([' ', '\'']));
-    Err(Fault::Text(if is_grouped { THOUSANDS } else { "" }))
+    let with_e = pointed.replace(['D', 'd'], "e").parse::<f64>();
+    Err(Fault::Text(match with_e {
+        _ if is_grouped => THOUSANDS,
+        Ok(_) => POWER,
+        Err(_) => OTHER,
+    }))
+}
+
+/// A number for a message: with few digits far from one.
+pub fn written(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-4..1e6 => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
+/// A cell for a message: trimmed, and shortened where it is long.
+pub fn shown(cell: &str) -> String {
+    let cell = cell.trim();
+    match cell.char_indices().nth(40) {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_string(),
+    }
 }

@@ -14,6 +14,15 @@ pub struct Numbers {
     pub lines: Vec<usize>,
 }
 
+/// Largest number that is taken, SI: no rig has measured it, and the fourth power of it is finite.
+const LARGEST: f64 = 1e30;
+/// A channel whose numbers are all smaller is refused for the same reason.
+const SMALLEST: f64 = 1.0 / LARGEST;
+
+/// The largest number of a column: its size, its row and its text.
+#[derive(Clone, Default)]
+struct Peak(f64, usize, String);
+
 impl Numbers {
     /// Takes the values of a quantity out.
     pub fn take(&mut self, quantity: Quantity) -> Option<Vec<f64>> {
@@ -26,8 +35,8 @@ impl Numbers {
 ///
 /// # Errors
 /// [`ReadError::Ragged`], [`ReadError::EmptyCell`], [`ReadError::NotANumber`],
-/// [`ReadError::NotFinite`], [`ReadError::Negative`], [`ReadError::TimeRunsBack`],
-/// [`ReadError::TimeRepeats`], [`ReadError::NoRows`], each at its line.
+/// [`ReadError::NotFinite`], [`ReadError::Beyond`], [`ReadError::Vanishing`], [`ReadError::Negative`],
+/// [`ReadError::TimeRunsBack`], [`ReadError::TimeRepeats`], [`ReadError::NoRows`], each at its line.
 pub fn read(
     source: &Source,
     head: &Head,
@@ -41,6 +50,7 @@ pub fn read(
         .count();
     let mut counted_to = 0;
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); columns.len()];
+    let mut peaks = vec![Peak::default(); columns.len()];
     let mut lines = Vec::new();
     let mut mark = Mark::Unseen;
     let mut blank_at: Option<usize> = None;
@@ -80,10 +90,14 @@ pub fn read(
             return Err(ReadError::EmptyCell { spot });
         }
         place.check_width(&row, head)?;
-        for (column, values) in columns.iter().zip(&mut values) {
+        let channels = columns.iter().zip(&mut values).zip(&mut peaks);
+        for ((column, values), peak) in channels {
             let cell = row.get(column.index).unwrap_or_default();
             let value = place.number(cell, column, &mut mark)?;
             place.check(value, cell, column, values.last().copied())?;
+            if value.abs() > peak.0 {
+                *peak = Peak(value.abs(), line, number::shown(cell));
+            }
             values.push(value);
         }
         lines.push(line);
@@ -93,6 +107,12 @@ pub fn read(
             file: source.file.clone(),
             line: head.line,
         });
+    }
+    for (column, Peak(size, line, value)) in columns.iter().zip(peaks) {
+        if column.quantity != Quantity::Time && size > 0.0 && size < SMALLEST {
+            let spot = Place { source, line }.spot(column);
+            return Err(ReadError::Vanishing { spot, value });
+        }
     }
     if mark == Mark::Comma {
         notes.push("a comma within a number is read as decimal comma".to_string());
@@ -133,11 +153,12 @@ impl Place<'_> {
             found: row.len(),
             expected: head.width,
             text: head::shown(row, head.separator),
+            fault: ragged(row, head),
         })
     }
 
     fn number(&self, cell: &str, column: &Column, mark: &mut Mark) -> Result<f64, ReadError> {
-        let value = || cell.trim().to_string();
+        let value = || number::shown(cell);
         let written = number::parse(cell, mark).map_err(|fault| match fault {
             Fault::Empty => ReadError::EmptyCell {
                 spot: self.spot(column),
@@ -153,9 +174,9 @@ impl Place<'_> {
             },
         })?;
         let si = column.unit.si(written);
-        match si.is_finite() {
+        match si.abs() <= LARGEST {
             true => Ok(si),
-            false => Err(ReadError::NotFinite {
+            false => Err(ReadError::Beyond {
                 spot: self.spot(column),
                 value: value(),
             }),
@@ -172,21 +193,44 @@ impl Place<'_> {
         if column.quantity.never_negative() && value < 0.0 {
             return Err(ReadError::Negative {
                 spot: self.spot(column),
-                value: cell.trim().to_string(),
+                value: number::shown(cell),
                 quantity: column.quantity,
             });
         }
         match last.filter(|_| column.quantity == Quantity::Time) {
             Some(last) if value < last => Err(ReadError::TimeRunsBack {
                 spot: self.spot(column),
-                from: last.to_string(),
-                to: value.to_string(),
+                from: number::written(last),
+                to: number::written(value),
             }),
             Some(last) if value == last => Err(ReadError::TimeRepeats {
                 spot: self.spot(column),
-                at: value.to_string(),
+                at: number::written(value),
             }),
             _ => Ok(()),
         }
     }
+}
+
+/// The first column that a row lacks or has too many, and what to do about it.
+fn ragged(row: &csv::StringRecord, head: &Head) -> String {
+    if row.len() < head.width {
+        let column = row.len();
+        let name = head.names.get(column);
+        let name = name.map_or(String::new(), |name| format!(" `{name}`"));
+        return format!(
+            "column {}{name} is missing: complete the row, or cut the record there",
+            column + 1
+        );
+    }
+    let commas = match head.separator {
+        b',' => {
+            "; numbers with decimal commas need semicolons or tabs between the columns, or quotes"
+        }
+        _ => "",
+    };
+    format!(
+        "column {} is beyond the header: remove it or give it a name{commas}",
+        head.width + 1
+    )
 }

@@ -197,6 +197,9 @@ fn cause_parameters(joint: &Joint, effect: usize) -> Result<Vec<Variable>, Varia
         .collect())
 }
 
+/// Bound of a parameter that has none of its own: importers that draw or optimise values need one.
+const LARGEST: f64 = 1e300;
+
 fn variable(reference: u32, owner: &str, entry: &Parameter, place: Place) -> Variable {
     let name = if owner.is_empty() {
         entry.name.to_owned()
@@ -209,7 +212,7 @@ fn variable(reference: u32, owner: &str, entry: &Parameter, place: Place) -> Var
         unit: entry.unit,
         causality: Causality::Parameter,
         lower: entry.lower,
-        upper: entry.upper,
+        upper: entry.upper.min(LARGEST),
         description: format!("{} ({})", entry.meaning.trim_end_matches('.'), entry.symbol),
         place,
     }

@@ -34,6 +34,9 @@ fn a_refusal_says_function_expected_and_came() {
         "{told}"
     );
     assert!(told.contains("came 0.5 s"), "{told}");
+    let unit = Unit::stepping(&resources, Drive::Force);
+    let told = unit.error(unit.step(1e300, 1e-3));
+    assert!(told.contains("came 1e300 s"), "{told}");
     let message = unit.log().last().unwrap();
     assert_eq!((message.instance.as_str(), message.status), ("bolt", 3));
     assert_eq!(message.category, "logStatusError");

@@ -34,12 +34,24 @@ pub struct Found {
 /// Why nothing was found.
 #[derive(Debug, thiserror::Error)]
 pub enum NothingFound {
+    /// Too little of anything.
+    #[error("{0}; give the whole test")]
+    TooShort(family::FamilyError),
     /// The procedure refused.
     #[error(transparent)]
     Seed(#[from] seed::SeedError),
     /// The fit refused.
     #[error(transparent)]
-    Family(#[from] family::FamilyError),
+    Family(family::FamilyError),
+}
+
+impl From<family::FamilyError> for NothingFound {
+    fn from(error: family::FamilyError) -> NothingFound {
+        match error {
+            family::FamilyError::TooShort { .. } => NothingFound::TooShort(error),
+            _ => NothingFound::Family(error),
+        }
+    }
 }
 
 /// Misfit of the family over that of any joint beyond which the family is said not to fit.

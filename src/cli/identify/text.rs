@@ -112,8 +112,11 @@ fn procedure(out: &mut String, seed: &Seed) {
     }
     if let Some(stiffness) = &seed.stiffness {
         estimated(out, &stiffness.series);
-        let reach = format!("{:.4} of the initial one", stiffness.reach);
-        row(out, "largest secant compl.", &reach);
+        // of a stiffness that was given nothing is known at larger loads
+        if stiffness.reach.is_finite() {
+            let reach = format!("{:.4} of the initial one", stiffness.reach);
+            row(out, "largest secant compl.", &reach);
+        }
     }
     if let Some(slip) = &seed.residual_slip {
         let text = format!(

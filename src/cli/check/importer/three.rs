@@ -18,7 +18,7 @@ impl Unit for Arc<FMU3> {
 
     fn set(&mut self, input: u32, value: f64) -> Result<(), Refused> {
         let set = self.setFloat64(&[input], &[value]);
-        answered(format!("fmi3SetFloat64 to {value}"), set)
+        answered(format!("fmi3SetFloat64 to {value:?}"), set)
     }
 
     /// The archive declares neither events nor early return, so none may come; and the step must

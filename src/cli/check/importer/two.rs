@@ -20,7 +20,7 @@ impl Unit for InstanceCS {
 
     fn set(&mut self, input: u32, value: f64) -> Result<(), Refused> {
         let set = self.set_real(&[input], &[value]);
-        answered(format!("fmi2SetReal to {value}"), set).map(|_| ())
+        answered(format!("fmi2SetReal to {value:?}"), set).map(|_| ())
     }
 
     fn step(&mut self, from: f64, size: f64) -> Result<(), Refused> {
