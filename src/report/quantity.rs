@@ -78,8 +78,12 @@ fn open(estimate: &Estimate, (lower, upper): (f64, f64), scale: &Scale) -> Shown
     let (below, above) = (lower.is_finite(), upper.is_finite());
     let (value, error) = match (below, above) {
         // A bound alone is no value: its sign goes with it wherever it is written.
-        (true, false) if estimate.value == lower => (format!("> {value}"), "at least".to_owned()),
-        (false, true) if estimate.value == upper => (format!("< {value}"), "at most".to_owned()),
+        (true, false) if estimate.value == lower => {
+            (format!("> {value}"), "not bounded from above".to_owned())
+        }
+        (false, true) if estimate.value == upper => {
+            (format!("< {value}"), "not bounded from below".to_owned())
+        }
         (true, false) => (
             value,
             format!("at least {}", quantity(lower, &estimate.unit)),
@@ -189,7 +193,7 @@ mod tests {
         let bound = estimated(3200.0, "N", Some((3200.0, f64::INFINITY)));
         assert_eq!(
             (bound.value.as_str(), bound.error.as_str()),
-            ("> 3.20 kN", "at least")
+            ("> 3.20 kN", "not bounded from above")
         );
         let nan = estimated(f64::NAN, "N", Some((1.0, 2.0)));
         assert_eq!(nan.value, "not determined");

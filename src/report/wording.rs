@@ -46,37 +46,22 @@ pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The verdict in words, with the causes it rests on.
+/// The verdict in a sentence or two, names of causes in words.
 pub(super) fn verdict_sentence(findings: &Findings) -> String {
-    let names: Vec<String> = findings.causes.iter().map(named).collect();
-    let causes = enumerate(&names);
-    match (findings.verdict, names.is_empty()) {
-        (Verdict::Clean, true) => {
-            "The baseline joint explains the record to the noise; nothing is wrong with it.".into()
-        }
-        (Verdict::Clean, false) => format!(
-            "The baseline joint explains the record to the noise; {causes} can be seen and does not matter."
-        ),
-        (Verdict::Explained, _) => format!("With {causes} only noise is left."),
-        (Verdict::PartlyExplained, _) if !findings.unexplained.doubles.is_empty() => format!(
-            "{causes} may be something else that is not in the catalogue ({}).",
-            findings.unexplained.doubles.join("; ")
-        ),
-        (Verdict::PartlyExplained, _) => {
-            format!("With {causes} a part is explained; structure beyond the noise remains.")
-        }
-        (Verdict::Unexplained, true) if !findings.unexplained.doubles.is_empty() => format!(
-            "Structure beyond the noise that no cause of the catalogue predicts out of sample; {}.",
-            findings.unexplained.doubles.join("; ")
-        ),
-        (Verdict::Unexplained, true) => {
-            "Structure beyond the noise that no cause of the catalogue predicts out of sample."
-                .into()
-        }
-        (Verdict::Unexplained, false) => format!(
-            "Structure beyond the noise remains that {causes} does not predict out of sample."
-        ),
-    }
+    in_prose(&findings.summary)
+}
+
+/// What may be at work in the place of a named cause and is not in the catalogue.
+pub(super) fn perhaps_instead(findings: &Findings, cause: &NamedCause) -> Option<String> {
+    let own = format!("{}: ", cause.name);
+    let doubles = findings.unexplained.doubles.iter();
+    let clauses: Vec<&str> = doubles.filter_map(|d| d.strip_prefix(&own)).collect();
+    (!clauses.is_empty()).then(|| {
+        format!(
+            "Perhaps something that is not in the catalogue instead: {}.",
+            in_prose(&clauses.join("; "))
+        )
+    })
 }
 
 /// The warning that comes before everything else where the prediction got worse: of held-out cycles,
@@ -224,23 +209,22 @@ pub(super) fn rest_sentence(findings: &Findings) -> String {
     )
 }
 
-/// A cause with the names that the data cannot tell from it.
-pub(super) fn named(cause: &NamedCause) -> String {
-    let own = in_words(&cause.name);
-    if cause.ambiguous_with.is_empty() {
-        return own;
-    }
-    let rivals: Vec<String> = cause
-        .ambiguous_with
-        .iter()
-        .map(|name| in_words(name))
-        .collect();
-    format!("{own} (or {})", rivals.join(" or "))
+/// `sensor_delay` as `sensor delay`, `running_in` as the noun that it is.
+pub(super) fn in_words(name: &str) -> String {
+    name.replace("running_in", "running-in").replace('_', " ")
 }
 
-/// `sensor_delay` as `sensor delay`.
-pub(super) fn in_words(name: &str) -> String {
-    name.replace('_', " ")
+/// Whether amplitude tables were diagnosed: they are judged in no channel of a time history.
+pub(super) fn of_tables(findings: &Findings) -> bool {
+    !["displacement", "force"].contains(&findings.judged.as_str())
+}
+
+/// What the rows of a record are.
+pub(super) fn rows(findings: &Findings) -> &'static str {
+    match of_tables(findings) {
+        true => "levels",
+        false => "samples",
+    }
 }
 
 /// The first letter raised.
@@ -251,11 +235,48 @@ pub(super) fn capital(text: &str) -> String {
     })
 }
 
-/// `a, b and c`.
-fn enumerate(names: &[String]) -> String {
-    match names {
-        [] => "the named causes".to_owned(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+/// A sentence with the names of causes and parameters in words: `tell running_in from creep` →
+/// `tell running-in from creep`. Symbols (`F_S`) and names of files stay.
+pub(super) fn in_prose(sentence: &str) -> String {
+    let mut prose = String::with_capacity(sentence.len());
+    let mut rest = sentence;
+    while !rest.is_empty() {
+        let within = |c: char| c.is_alphanumeric() || c == '_';
+        let end = rest.find(|c| !within(c)).unwrap_or(rest.len());
+        if end == 0 {
+            let first = rest.chars().next().map_or(0, char::len_utf8);
+            prose.push_str(&rest[..first]);
+            rest = &rest[first..];
+            continue;
+        }
+        let (word, more) = rest.split_at(end);
+        let file = more.strip_prefix('.').is_some_and(|ending| {
+            let mut letters = ending.chars();
+            letters.next().is_some_and(|c| c.is_ascii_lowercase())
+        });
+        let named = word
+            .split('_')
+            .all(|part| part.len() > 1 && part.chars().all(|c| c.is_ascii_lowercase()));
+        prose.push_str(&match named && !file {
+            true => in_words(word),
+            false => word.to_owned(),
+        });
+        rest = more;
+    }
+    prose
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_prose;
+
+    #[test]
+    fn names_stand_in_words_in_prose() {
+        assert_eq!(
+            in_prose(
+                "To show preload_loss, running_in: run next_experiment.csv; F_S and K_1 stay."
+            ),
+            "To show preload loss, running-in: run next_experiment.csv; F_S and K_1 stay."
+        );
     }
 }
