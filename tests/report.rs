@@ -634,6 +634,19 @@ fn of_a_table_only_what_was_tried_is_shown() {
 }
 
 #[test]
+fn a_place_is_said_once() {
+    let mut found = worse();
+    found.unexplained.places = ["7", "6"]
+        .map(|share| format!("record b, 0.6 to 0.7 s: {share} % of the structure"))
+        .to_vec();
+    let text = text::render(&found);
+    assert!(
+        text.contains("- record b, 0.6 to 0.7 s: 13 % of the structure"),
+        "{text}"
+    );
+}
+
+#[test]
 fn the_share_within_the_noise_is_said() {
     let page = drawn(&clean());
     assert!(page.contains("of the samples; of noise alone about 95 %."));

@@ -114,7 +114,7 @@ pub(super) fn gain(findings: &Findings) -> Value {
         effective => count(findings.noise.effective_samples),
         of_tables => wording::of_tables(findings),
         rest => wording::rest_sentence(findings),
-        places => findings.unexplained.places,
+        places => wording::places(findings),
     }
 }
 

@@ -40,6 +40,12 @@ pub(super) fn estimate(estimate: &Estimate) -> Shown {
     let half = 0.5 * (upper - lower);
     if value != 0.0 && half > value.abs() {
         let [from, to] = [lower, upper].map(|bound| rounded(bound, &estimate.unit));
+        // The unit stands once where both bounds have it.
+        let from = match from.1 == to.1 {
+            true => from.0,
+            false => Scale::of(lower, &estimate.unit).attach(&from.0),
+        };
+        let to = Scale::of(upper, &estimate.unit).attach(&to.0);
         return Shown {
             value: "undetermined".to_owned(),
             error: format!("between {from} and {to}"),
@@ -102,15 +108,16 @@ fn open(estimate: &Estimate, (lower, upper): (f64, f64), scale: &Scale) -> Shown
     }
 }
 
-/// Two digits of a bound, in a unit of its own.
-fn rounded(bound: f64, unit: &str) -> String {
+/// Two digits of a bound, and the unit that they are in.
+fn rounded(bound: f64, unit: &str) -> (String, String) {
     let scale = Scale::of(bound, unit);
     let shown = scale.shown(bound);
     let write = Digits::Last(1 - decade(shown));
-    match shown.abs() >= 1e4 || (shown != 0.0 && shown.abs() < 1e-3) {
-        true => scale.attach(&number(shown, 2)),
-        false => scale.attach(&write.number(shown)),
-    }
+    let written = match shown.abs() >= 1e4 || (shown != 0.0 && shown.abs() < 1e-3) {
+        true => number(shown, 2),
+        false => write.number(shown),
+    };
+    (written, scale.unit)
 }
 
 /// Power of ten of the first digit.
@@ -208,7 +215,7 @@ mod tests {
     fn a_value_that_its_error_exceeds_is_none() {
         let shown = estimated(58_941.0, "1/m2", Some((-2_643_830.0, 4_231_028.0)));
         assert_eq!(shown.value, "undetermined");
-        assert_eq!(shown.error, "between -2.6·10⁶ 1/m² and 4.2·10⁶ 1/m²");
+        assert_eq!(shown.error, "between -2.6·10⁶ and 4.2·10⁶ 1/m²");
         let shown = estimated(0.01, "1", Some((-0.61, 0.63)));
         assert_eq!(shown.error, "between -0.61 and 0.63");
         let wide = estimated(1.3e6, "N/m", Some((1e5, 5.9e9)));

@@ -178,8 +178,8 @@ fn left(findings: &Findings) -> Section {
         quantity(findings.noise.rms, &findings.noise.unit),
         findings.noise.method
     ))];
-    let places = findings.unexplained.places.iter();
-    items.extend(places.map(|place| bullet(place)));
+    let places = wording::places(findings).into_iter();
+    items.extend(places.map(|place| bullet(&place)));
     Section::of("What remains", items)
 }
 

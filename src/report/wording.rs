@@ -214,6 +214,27 @@ pub(super) fn in_words(name: &str) -> String {
     name.replace("running_in", "running-in").replace('_', " ")
 }
 
+/// Where structure is left, what is said of one stretch put together: several bins may lie in it.
+pub(super) fn places(findings: &Findings) -> Vec<String> {
+    const SHARE: &str = " % of the structure";
+    let mut places: Vec<(&str, Option<u32>)> = Vec::new();
+    for place in &findings.unexplained.places {
+        let share = place.strip_suffix(SHARE).and_then(|p| p.rsplit_once(": "));
+        let share = share.and_then(|(stretch, share)| Some((stretch, share.parse().ok()?)));
+        let (stretch, share) =
+            share.map_or((place.as_str(), None), |(s, n): (_, u32)| (s, Some(n)));
+        match places.iter_mut().find(|(known, _)| *known == stretch) {
+            Some((_, sum)) => *sum = sum.zip(share).map(|(sum, share)| sum + share),
+            None => places.push((stretch, share)),
+        }
+    }
+    let said = places.into_iter().map(|(stretch, share)| match share {
+        Some(share) => format!("{stretch}: {share}{SHARE}"),
+        None => stretch.to_owned(),
+    });
+    said.collect()
+}
+
 /// Whether amplitude tables were diagnosed: they are judged in no channel of a time history.
 pub(super) fn of_tables(findings: &Findings) -> bool {
     !["displacement", "force"].contains(&findings.judged.as_str())
