@@ -24,10 +24,25 @@ pub fn summary(findings: &Findings) -> String {
         })
         .collect();
     let many = names.len() > 1;
-    let names = names.join(" and ");
-    let (ratio, _) = findings.gain;
     let doubles = in_words(&findings.unexplained.doubles.join("; "));
-    let said = match findings.verdict {
+    capital(&said(
+        findings.verdict,
+        (&names.join(" and "), many),
+        findings.gain,
+        (findings.unexplained.share, &doubles),
+    ))
+}
+
+/// The verdict of causes with these names (whether they are several), the ratio of errors with its interval, and
+/// the share that is left with what may be there instead.
+fn said(
+    verdict: Verdict,
+    (names, many): (&str, bool),
+    (ratio, interval): (f64, Option<(f64, f64)>),
+    (left, doubles): (f64, &str),
+) -> String {
+    let partly = || partly((names, many), ratio, interval);
+    match verdict {
         Verdict::Clean if names.is_empty() => {
             "the baseline joint explains the records to the noise; no cause is called for."
                 .to_string()
@@ -43,12 +58,12 @@ pub fn summary(findings: &Findings) -> String {
         // What may be something else is not said as if it were found.
         Verdict::PartlyExplained if !doubles.is_empty() => format!(
             "perhaps {names}, perhaps something that is not in the catalogue ({doubles}). {}.",
-            capital(&partly((&names, many), ratio, findings.gain.1))
+            capital(&partly())
         ),
         Verdict::PartlyExplained => format!(
             "{}; {:.0} % of the misfit beyond the noise stays unexplained.",
-            partly((&names, many), ratio, findings.gain.1),
-            100.0 * findings.unexplained.share
+            partly(),
+            100.0 * left
         ),
         Verdict::Unexplained => {
             let perhaps = match doubles.is_empty() {
@@ -59,8 +74,7 @@ pub fn summary(findings: &Findings) -> String {
                 "the baseline leaves structure beyond the noise, and no cause of the catalogue predicts it{perhaps}."
             )
         }
-    };
-    capital(&said)
+    }
 }
 
 /// `sensor_delay` as `sensor delay`, `running_in` as the noun that it is.
@@ -211,4 +225,39 @@ pub fn next_experiment(findings: &Findings) -> Option<String> {
         unclear.ambiguous_with.join(" and "),
         page.separated_by
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verbs_agree_with_the_count_of_causes() {
+        let gain = (0.5, Some((0.4, 0.6)));
+        let explained = |names| said(Verdict::Explained, names, gain, (0.0, ""));
+        assert!(explained(("pinning", false)).starts_with("pinning explains"));
+        assert!(
+            explained(("creep and pinning", true)).starts_with("creep and pinning explain what")
+        );
+        let taken = partly(("creep and pinning", true), 0.5, gain.1);
+        assert_eq!(
+            taken,
+            "creep and pinning take the held-out error to 0.50 of the baseline's"
+        );
+    }
+
+    #[test]
+    fn what_may_be_something_else_is_not_asserted() {
+        let doubles = (0.1, "pinning: a specimen that settles");
+        let text = said(
+            Verdict::PartlyExplained,
+            ("pinning", false),
+            (0.5, None),
+            doubles,
+        );
+        assert!(text.starts_with(
+            "perhaps pinning, perhaps something that is not in the catalogue (pinning: a specimen that settles)."
+        ));
+        assert!(text.ends_with(". Pinning takes the held-out error to 0.50 of the baseline's."));
+    }
 }

@@ -3,24 +3,25 @@
 use minijinja::context;
 use minijinja::value::Value;
 
+use super::quantity::share;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::Errors;
 use crate::diagnose::levels::{Compared, Level};
-use crate::record::written::{number, percent, quantity};
+use crate::record::written::{number, quantity};
 
 /// Levels in the table at most; diagnosis.json has all.
 const MOST_LEVELS: usize = 60;
 
 /// `12 %` with its interval in brackets, where there is one.
-pub(super) fn share(value: f64, interval: Option<(f64, f64)>) -> String {
+fn bounded(value: f64, interval: Option<(f64, f64)>) -> String {
     match interval {
         Some((lower, upper)) => format!(
             "{} ({} … {})",
-            percent(value),
+            share(value),
             number(100.0 * lower, 2),
             number(100.0 * upper, 2)
         ),
-        None => percent(value),
+        None => share(value),
     }
 }
 
@@ -38,8 +39,8 @@ pub(super) fn errors(label: &str, errors: &Errors, unit: &str) -> Value {
         train => quantity(errors.train_rms, unit),
         held_out => quantity(errors.held_out_rms, unit),
         held_out_interval => held_out,
-        energy => errors.dissipation_error.map(|e| share(e, errors.dissipation_interval)),
-        stiffness => errors.stiffness_error.map(|e| share(e, errors.stiffness_interval)),
+        energy => errors.dissipation_error.map(|e| bounded(e, errors.dissipation_interval)),
+        stiffness => errors.stiffness_error.map(|e| bounded(e, errors.stiffness_interval)),
     }
 }
 
@@ -80,9 +81,9 @@ pub(super) fn levels(findings: &Findings) -> Vec<Value> {
         compared.as_ref().map(|c| {
             context! {
                 measured => quantity(c.measured, &c.unit),
-                before => percent(c.before),
+                before => share(c.before),
                 before_interval => within(c.before_interval),
-                after => percent(c.after),
+                after => share(c.after),
                 after_interval => within(c.after_interval),
             }
         })

@@ -6,12 +6,12 @@ use minijinja::value::Value;
 use super::CausePage;
 use super::compared::errors;
 use super::plots::Figure;
-use super::quantity::estimate;
+use super::quantity::{estimate, share};
 use super::symbols::marked_up;
 use super::wording;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{Estimate, NamedCause, Verdict};
-use crate::record::written::{number, percent, quantity};
+use crate::record::written::{number, quantity};
 
 /// Verdict, warning and the figures that sum the page up.
 pub(super) fn banner(findings: &Findings) -> Value {
@@ -49,7 +49,7 @@ fn tiles(findings: &Findings) -> Vec<Value> {
     if findings.verdict != Verdict::Clean {
         tiles.push(tile(
             "Left unexplained",
-            percent(findings.unexplained.share),
+            share(findings.unexplained.share),
             "of the explainable misfit".to_owned(),
         ));
     }

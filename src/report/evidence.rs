@@ -3,16 +3,14 @@
 use minijinja::context;
 use minijinja::value::Value;
 
+use super::quantity::{chi_squared, share};
 use super::wording::in_words;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::Candidate;
-use crate::record::written::{number, percent};
+use crate::record::written::number;
 
 /// Bars at most; the table beneath has all.
 const MOST_BARS: usize = 14;
-
-/// Probabilities below this are written as less than it.
-const LEAST_PROBABILITY: f64 = 1e-4;
 
 /// Bars of the strongest candidates; `None` where nothing was scored.
 pub(super) fn bars(findings: &Findings) -> Option<Value> {
@@ -97,17 +95,10 @@ pub(super) fn candidates(findings: &Findings) -> Vec<Value> {
             kind => candidate.kind,
             named => findings.causes.iter().any(|cause| cause.name == candidate.name),
             evidence => number(candidate.evidence, 3),
-            probability => probability(candidate.probability),
-            lambda_sep => optional(candidate.lambda_sep),
+            probability => share(candidate.probability),
+            lambda_sep => candidate.lambda_sep.map_or("–".to_owned(), chi_squared),
             held_out_gain => optional(candidate.held_out_gain),
         }
     });
     rows.collect()
-}
-
-fn probability(share: f64) -> String {
-    match share {
-        share if share < LEAST_PROBABILITY => "< 0.01 %".to_owned(),
-        share => percent(share),
-    }
 }

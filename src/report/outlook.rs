@@ -3,6 +3,7 @@
 use minijinja::context;
 use minijinja::value::Value;
 
+use super::quantity::chi_squared;
 use super::wording::{in_prose, in_words};
 use crate::diagnose::Findings;
 use crate::diagnose::experiment::dummy::Ruling;
@@ -27,14 +28,14 @@ pub(super) fn separability(findings: &Findings) -> Vec<Value> {
                 "none" => "the baseline".to_owned(),
                 name => in_words(name),
             };
-            format!("{name} ({})", number(*left, 3))
+            format!("{name} ({})", chi_squared(*left))
         });
         context! {
             name => in_words(&line.name),
             fitted => line.fitted,
             hidden => line.lambda < TOLD,
-            lambda => number(line.lambda, 3),
-            baseline => number(line.baseline, 3),
+            lambda => chi_squared(line.lambda),
+            baseline => chi_squared(line.baseline),
             rivals => rivals.collect::<Vec<_>>().join(", "),
         }
     });

@@ -14,6 +14,27 @@ pub(super) struct Shown {
     pub(super) interval: String,
 }
 
+/// Shares below this, and beyond this many times the whole, say nothing by their digits.
+const LEAST_SHARE: f64 = 1e-4;
+const MOST_SHARE: f64 = 10.0;
+
+/// A share as percent: `7.1 %`, `< 0.01 %`, `> 1000 %`.
+pub(super) fn share(value: f64) -> String {
+    match value.abs() {
+        size if size > 0.0 && size < LEAST_SHARE => "< 0.01 %".to_owned(),
+        size if size > MOST_SHARE && size.is_finite() => "> 1000 %".to_owned(),
+        _ => percent(value),
+    }
+}
+
+/// A χ²: below a hundredth there is none.
+pub(super) fn chi_squared(value: f64) -> String {
+    match value {
+        value if value > 0.0 && value < 0.01 => "< 0.01".to_owned(),
+        value => number(value, 3),
+    }
+}
+
 /// Value, error and interval in one unit; the value carries the digits its error leaves it. A value that
 /// its error exceeds is none: only its bounds are said.
 pub(super) fn estimate(estimate: &Estimate) -> Shown {
@@ -220,6 +241,14 @@ mod tests {
         assert_eq!(shown.error, "between -0.61 and 0.63");
         let wide = estimated(1.3e6, "N/m", Some((1e5, 5.9e9)));
         assert_eq!(wide.error, "between 100 kN/m and 5.9 GN/m");
+    }
+
+    #[test]
+    fn shares_and_chi_squared_have_no_idle_digits() {
+        let shown = [0.071, 5.6e-213, -1e-9, 0.0, 1.09e6].map(share);
+        assert_eq!(shown, ["7.1 %", "< 0.01 %", "< 0.01 %", "0 %", "> 1000 %"]);
+        assert_eq!([2.6e-7, 10.66].map(chi_squared), ["< 0.01", "10.7"]);
+        assert_eq!(share(f64::NAN), "not determined");
     }
 
     #[test]

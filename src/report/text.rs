@@ -249,7 +249,9 @@ fn bullet(text: &str) -> Vec<String> {
 /// Text broken at white space into lines of at most `width` characters, where words allow.
 fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    // A number and its sign stay on one line.
+    let text = text.replace(" %", "\u{a0}%").replace(" ×", "\u{a0}×");
+    for word in text.split_ascii_whitespace() {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
                 line.push(' ');
@@ -259,4 +261,7 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
         }
     }
     lines
+        .iter()
+        .map(|line| line.replace('\u{a0}', " "))
+        .collect()
 }

@@ -1,5 +1,6 @@
 //! Sentences that the screen and the page share.
 
+use super::quantity::share;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{NamedCause, Verdict};
 use crate::record::written::{number, percent, quantity};
@@ -116,14 +117,14 @@ pub(super) fn ratio(findings: &Findings) -> String {
 
 /// What the change of the held-out error means.
 pub(super) fn gain_sentence(findings: &Findings) -> String {
-    let share = percent((1.0 - findings.gain.0).abs());
+    let fall = percent((1.0 - findings.gain.0).abs());
     match change(findings) {
         Change::None => "Nothing was added to the baseline joint.".to_owned(),
-        Change::Better => format!("The error on unseen data falls by {share}."),
+        Change::Better => format!("The error on unseen data falls by {fall}."),
         Change::PerhapsBetter => {
-            format!("The error on unseen data falls by {share}; the data do not prove a gain.")
+            format!("The error on unseen data falls by {fall}; the data do not prove a gain.")
         }
-        Change::Worse => format!("The error on unseen data rises by {share}."),
+        Change::Worse => format!("The error on unseen data rises by {fall}."),
     }
 }
 
@@ -154,11 +155,11 @@ pub(super) fn energy_sentence(findings: &Findings) -> String {
         (Some(before), Some(after)) if !findings.causes.is_empty() => {
             format!(
                 "{name} off by {} before, {} after.",
-                percent(before),
-                percent(after)
+                share(before),
+                share(after)
             )
         }
-        (Some(before), _) => format!("{name} off by {}.", percent(before)),
+        (Some(before), _) => format!("{name} off by {}.", share(before)),
         _ => String::new(),
     };
     let said = [
@@ -193,7 +194,7 @@ pub(super) fn left_out_sentence(findings: &Findings) -> String {
 pub(super) fn weight_sentence(cause: &NamedCause) -> String {
     format!(
         "Changes {} of the energy per cycle; without it the misfit rises by {} noise variances.",
-        percent(cause.matters),
+        share(cause.matters),
         number(cause.evidence, 3)
     )
 }
@@ -205,7 +206,7 @@ pub(super) fn rest_sentence(findings: &Findings) -> String {
     }
     format!(
         "{} of the explainable misfit is left.",
-        percent(findings.unexplained.share)
+        share(findings.unexplained.share)
     )
 }
 
