@@ -47,7 +47,10 @@ pub(super) fn errors(label: &str, errors: &Errors, unit: &str) -> Value {
 /// Bounds of a relative error in percent, `0.63 … 1.2`, where there are any.
 fn within(interval: Option<(f64, f64)>) -> Option<String> {
     let (lower, upper) = interval?;
-    let bounds = [lower, upper].map(|bound| number(100.0 * bound, 2));
+    let bounds = [lower, upper].map(|bound| match 100.0 * bound {
+        bound if bound.abs() < 1e-3 => "0".to_owned(),
+        bound => number(bound, 2),
+    });
     Some(bounds.join(" … "))
 }
 
