@@ -473,17 +473,14 @@ fn words(text: &str) -> String {
 #[test]
 fn text_has_the_verdict_first_and_fits_a_screen() {
     for (findings, first) in [
-        (
-            clean(),
-            "CLEAN. The baseline joint explains the record to the noise",
-        ),
+        (clean(), "CLEAN. Nothing beyond the noise."),
         (
             explained(),
-            "EXPLAINED. With pinning (or cubic stiffness) only noise is left.",
+            "EXPLAINED. A pin touches beyond 6 µm on both sides;",
         ),
         (
             unexplained(),
-            "UNEXPLAINED. Structure beyond the noise that no cause",
+            "UNEXPLAINED. What is left repeats from cycle to cycle.",
         ),
     ] {
         let text = text::render(&findings);
@@ -501,7 +498,7 @@ fn text_has_the_verdict_first_and_fits_a_screen() {
         "1.234 MN/m  ± 0.055 MN/m (4.5 %)",
         "6.02 µm  +0.48 / -0.12 µm (5.0 %)",
         "0.0400  not bounded by the data",
-        "not to be told from: cubic_stiffness",
+        "not to be told from: cubic stiffness",
         "Changes 7.1 % of the energy per cycle; without it the misfit rises by 812 noise variances",
         "The error on unseen data falls by 71 %.",
         "122 nm → 35.0 nm, ratio 0.287 (95 %: 0.250 … 0.331)",
@@ -526,8 +523,8 @@ fn a_long_text_is_shortened_and_says_so() {
     found.notes = (0..20).map(|row| format!("Note {row}.")).collect();
     let text = text::render(&found);
     assert!(text.lines().count() <= 40, "{text}");
-    assert!(text.contains("lines more: see diagnosis.json"));
-    // Every line dropped is counted.
+    assert!(text.contains("more in diagnosis.json"));
+    // Every item dropped is counted.
     let dropped: usize = text
         .lines()
         .filter_map(|line| {
@@ -544,6 +541,115 @@ fn a_long_text_is_shortened_and_says_so() {
         .filter(|line| line.contains("weight_") || line.contains("Note "))
         .count();
     assert_eq!(shown + dropped, 50);
+}
+
+#[test]
+fn no_sentence_and_no_named_cause_is_cut() {
+    let mut found = explained();
+    let long = "the same force through the same joint ".repeat(6);
+    found.not_identifiable = (0..6)
+        .map(|row| format!("Sentence {row}: {long}ends."))
+        .collect();
+    found.causes[0].parameters = (0..28)
+        .map(|row| estimate(&format!("height_{row}"), 1e6, "N/m", None))
+        .collect();
+    let text = text::render(&found);
+    for row in 0..28 {
+        assert!(text.contains(&format!("height_{row} ")), "{row} in\n{text}");
+    }
+    assert!(text.contains("Changes 7.1 %"), "{text}");
+    let text = words(&text);
+    assert!(text.contains("more in diagnosis.json"), "{text}");
+    assert_eq!(
+        text.matches("Sentence ").count(),
+        text.matches("joint ends.").count()
+    );
+}
+
+#[test]
+fn what_may_be_something_else_is_not_asserted() {
+    let mut found = explained();
+    found.verdict = Verdict::PartlyExplained;
+    found.unexplained.doubles = vec!["pinning: a specimen that settles".to_owned()];
+    let perhaps =
+        "Perhaps something that is not in the catalogue instead: a specimen that settles.";
+    let text = words(&text::render(&found));
+    assert!(text.contains(perhaps), "{text}");
+    let page = drawn(&found);
+    assert!(page.contains(perhaps) && page.contains("The cause, perhaps"));
+    assert!(!drawn(&explained()).contains("perhaps"));
+}
+
+#[test]
+fn prose_has_words_where_programs_have_names() {
+    let mut found = explained();
+    found.not_identifiable = vec!["preload_loss is not told from running_in.".to_owned()];
+    found.next_experiment = Some("To show preload_loss: run next_experiment.csv.".to_owned());
+    let page = drawn(&found);
+    let text = words(&text::render(&found));
+    for shown in [&page, &text] {
+        assert!(shown.contains("preload loss is not told from running-in."));
+        assert!(shown.contains("To show preload loss: run next_experiment.csv."));
+    }
+    assert!(page.contains("<code>pinning</code>") && text.contains("pinning (joint)"));
+}
+
+#[test]
+fn levels_are_what_the_load_dwells_on() {
+    let mut found = explained();
+    let mut held = level("bolt-1", (400.0, 0.0), Some(5.0), 2e-4);
+    held.cycles = 6;
+    let mut passing = level("bolt-1", (700.0, -300.0), Some(5.0), 5e-4);
+    passing.cycles = 1;
+    found.levels = vec![
+        held,
+        passing,
+        level("bolt-1", (800.0, 0.0), Some(5.0), 9e-4),
+    ];
+    let page = drawn(&found);
+    assert!(page.contains("All 2 levels in numbers"));
+    assert!(page.contains("1 cycle on the way from one level to the next is no level"));
+    assert!(page.contains(">Loss per cycle</th>") && page.contains(">Stiffness</th>"));
+    // Without dwelling every cycle is a level, as in a ring-down.
+    for level in &mut found.levels {
+        level.cycles = 1;
+    }
+    assert!(drawn(&found).contains("All 3 levels in numbers"));
+}
+
+#[test]
+fn of_a_table_only_what_was_tried_is_shown() {
+    let mut found = clean();
+    found.judged = "loss and stiffness per level (in units of the noise)".to_owned();
+    found.noise.effective_samples = 12.0;
+    found.candidates = vec![
+        candidate("pinning", "joint", -1.7, 0.11),
+        candidate("creep", "joint", 0.0, 0.0),
+    ];
+    let page = drawn(&found);
+    assert!(page.contains("The candidate in numbers"));
+    assert!(page.contains("cannot show them: creep."));
+    assert!(page.contains("12 values of levels") && page.contains(">levels</th>"));
+    assert!(text::render(&found).contains("bolt-1 (4000 levels)"));
+}
+
+#[test]
+fn a_place_is_said_once() {
+    let mut found = worse();
+    found.unexplained.places = ["7", "6"]
+        .map(|share| format!("record b, 0.6 to 0.7 s: {share} % of the structure"))
+        .to_vec();
+    let text = text::render(&found);
+    assert!(
+        text.contains("- record b, 0.6 to 0.7 s: 13 % of the structure"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_share_within_the_noise_is_said() {
+    let page = drawn(&clean());
+    assert!(page.contains("of the samples; of noise alone about 95 %."));
 }
 
 #[test]
@@ -582,6 +688,8 @@ fn the_page_needs_nothing_else() {
     kept("report_clean.html", &drawn(&clean()));
     kept("report_unexplained.html", &drawn(&unexplained()));
     let without_namespace = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    // Links within the page to its glossary.
+    let without_namespace = without_namespace.replace(" href=\"#word-", "");
     for loaded in [
         "http:", "https:", " src=", " href=", "url(", "@import", "<script", "<link",
     ] {
@@ -591,9 +699,10 @@ fn the_page_needs_nothing_else() {
         );
     }
     assert!(page.trim_start().starts_with("<!DOCTYPE html>"));
-    // Two records with four plots each, the loss over amplitude, and the evidence.
-    assert_eq!(page.matches("<svg").count(), 10);
-    assert_eq!(page.matches("</svg>").count(), 10);
+    // Two records with four plots each, two of them also for a narrow page, the loss over amplitude and
+    // how far off it is.
+    assert_eq!(page.matches("<svg").count(), 14);
+    assert_eq!(page.matches("</svg>").count(), 14);
     assert!(page.contains("force [kN]") || page.contains("force [N]"));
     assert!(page.contains("displacement [µm]"));
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
@@ -615,6 +724,7 @@ fn the_page_shows_the_numbers_of_the_findings() {
         "if |u| &gt; g, k &lt; ∞",
         "record bolt-2, cycles 4–6, just after reversals",
         "All 9 candidates in numbers",
+        "id=\"word-noise-variance\"",
     ] {
         assert!(page.contains(shown), "`{shown}` is missing");
     }
@@ -670,7 +780,7 @@ fn drawings_are_well_formed_and_small_for_long_records() {
     let page = drawn(&found);
     kept("report_long.html", &page);
     let drawings: Vec<&str> = page.split("<svg").skip(1).collect();
-    assert_eq!(drawings.len(), 6);
+    assert_eq!(drawings.len(), 8);
     for drawing in drawings {
         let end = drawing.find("</svg>").expect("an end") + "</svg>".len();
         let markup = format!("<svg{}", &drawing[..end]);
@@ -708,9 +818,13 @@ fn only_what_was_found_is_drawn() {
     );
     let yellow = " fill=\"#F0E442\"";
     let shaded = |findings: &Findings| drawn(findings).matches(yellow).count();
-    // Two blocks were held out of each of the two records.
-    assert_eq!(shaded(&explained()), 4);
+    // Two blocks were held out of each of the two records, drawn twice; the loss of one level, and its two
+    // errors.
+    assert_eq!(shaded(&explained()), 11);
     let mut fitted = explained();
+    for level in &mut fitted.levels {
+        level.held_out = false;
+    }
     for curves in &mut fitted.curves {
         curves.held_out.fill(false);
     }

@@ -3,6 +3,7 @@
 mod results;
 
 use super::input::{BesideTable, Records};
+use super::progress::Progress;
 use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
@@ -18,7 +19,6 @@ use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use anyhow::Context;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Find what the baseline joint gets wrong, and why.
 #[derive(Debug, clap::Args)]
@@ -95,14 +95,11 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let preloads = super::preload::notes(&loaded);
     preloads.iter().for_each(|note| output::tell(note));
     let library = library();
-    let start = Instant::now();
-    let progress = |stage: &str| {
-        let seconds = start.elapsed().as_secs_f64();
-        output::tell(&format!("[{seconds:6.2} s] {stage}"));
-    };
+    let progress = Progress::new();
+    let stage = |words: &str| progress.stage(words);
     let (mut findings, missing) = match tables(&loaded)? {
         Some(tables) => {
-            let found = diagnose_tables(&tables, &known, progress)
+            let found = diagnose_tables(&tables, &known, stage)
                 .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
             (found.findings, found.missing)
         }
@@ -112,7 +109,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
                 dummy: dummy(arguments)?,
             };
             let records = histories(&loaded)?;
-            let found = diagnose_with(&records, &options, progress)
+            let found = diagnose_with(&records, &options, stage)
                 .with_context(|| format!("{}: {NO_JOINT}", arguments.records.named()))?;
             (found, None)
         }
@@ -160,7 +157,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     for (name, bytes) in &files {
         let path = arguments.output.join(name);
         output::write(&path, |out| Ok(out.write_all(bytes)?))?;
-        progress(&path.display().to_string());
+        stage(&path.display().to_string());
     }
     let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
     results::clear(&arguments.output, &written, earlier)?;

@@ -7,6 +7,7 @@ mod text;
 use super::BadInput;
 use super::input::{BesideTable, Records};
 use super::output;
+use super::progress::Progress;
 use crate::saved::SavedJoint;
 use found::Found;
 use std::collections::BTreeMap;
@@ -45,9 +46,11 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     arguments.beside.of_use(&loaded)?;
     let preloads = super::preload::notes(&loaded);
     preloads.iter().for_each(|note| output::tell(note));
-    output::tell(&format!("identifying from {} record(s) …", loaded.len()));
+    let progress = Progress::new();
+    progress.stage(&format!("identifying from {} record(s)", loaded.len()));
     let mut found = Found::from(&loaded, &known)
         .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
+    drop(progress);
     found.noticed.extend(preloads);
     if let (Some(file), Err(why)) = (asked, &found.joint) {
         return Err(BadInput(format!(

@@ -8,6 +8,7 @@ mod identify;
 pub mod input;
 pub mod output;
 mod preload;
+mod progress;
 mod provenance;
 mod signs;
 mod simulate;

@@ -51,7 +51,8 @@ pub fn investigated(
 ) -> Investigation {
     let first = however_worn(records, timed, progress);
     let news = news(&first.bench, &first.found.best);
-    if !news.end && !(news.middle && first.is_told_by_all()) {
+    let worth_it = news.end || news.middle && first.is_told_by_all();
+    if !worth_it {
         return first;
     }
     progress("once more: samples that were set aside show what no sample of the fit has shown");

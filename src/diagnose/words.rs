@@ -15,50 +15,98 @@ pub fn summary(findings: &Findings) -> String {
         .causes
         .iter()
         .map(|c| {
+            let own = in_words(&c.name);
             if c.ambiguous_with.is_empty() {
-                c.name.clone()
+                own
             } else {
-                format!("{} (or {})", c.name, c.ambiguous_with.join(" or "))
+                let rivals: Vec<String> = c.ambiguous_with.iter().map(|r| in_words(r)).collect();
+                format!("{own} (or {})", rivals.join(" or "))
             }
         })
         .collect();
-    let names = names.join(" and ");
-    let (ratio, _) = findings.gain;
-    match findings.verdict {
-        Verdict::Clean => "The baseline joint explains the records to the noise; no cause is called for.".to_string(),
-        Verdict::Explained => format!(
-            "{names} explains what the baseline gets wrong: the held-out error falls to {ratio:.2} of the baseline's and only noise is left."
+    let many = names.len() > 1;
+    let doubles = in_words(&findings.unexplained.doubles.join("; "));
+    capital(&said(
+        findings.verdict,
+        (&names.join(" and "), many),
+        findings.gain,
+        (findings.unexplained.share, &doubles),
+    ))
+}
+
+/// The verdict of causes with these names (whether they are several), the ratio of errors with its interval, and
+/// the share that is left with what may be there instead.
+fn said(
+    verdict: Verdict,
+    (names, many): (&str, bool),
+    (ratio, interval): (f64, Option<(f64, f64)>),
+    (left, doubles): (f64, &str),
+) -> String {
+    let partly = || partly((names, many), ratio, interval);
+    match verdict {
+        Verdict::Clean if names.is_empty() => {
+            "the baseline joint explains the records to the noise; no cause is called for."
+                .to_string()
+        }
+        Verdict::Clean => format!(
+            "the baseline joint explains the records to the noise; {names} can be seen and {} not matter.",
+            if many { "do" } else { "does" }
         ),
-        Verdict::PartlyExplained if !findings.unexplained.doubles.is_empty() => format!(
-            "{}; perhaps it is something that is not in the catalogue ({}).",
-            partly(&names, ratio, findings.gain.1),
-            findings.unexplained.doubles.join("; ")
+        Verdict::Explained => format!(
+            "{names} {} what the baseline gets wrong: the held-out error falls to {ratio:.2} of the baseline's and only noise is left.",
+            if many { "explain" } else { "explains" }
+        ),
+        // What may be something else is not said as if it were found.
+        Verdict::PartlyExplained if !doubles.is_empty() => format!(
+            "perhaps {names}, perhaps something that is not in the catalogue ({doubles}). {}.",
+            capital(&partly())
         ),
         Verdict::PartlyExplained => format!(
-            "{}; structure beyond the noise remains ({:.0} % of it).",
-            partly(&names, ratio, findings.gain.1),
-            100.0 * findings.unexplained.share
+            "{}; {:.0} % of the misfit beyond the noise stays unexplained.",
+            partly(),
+            100.0 * left
         ),
-        Verdict::Unexplained if !findings.unexplained.doubles.is_empty() => format!(
-            "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it; {}.",
-            findings.unexplained.doubles.join("; ")
-        ),
-        Verdict::Unexplained => "The baseline leaves structure beyond the noise, and no cause of the catalogue predicts it.".to_string(),
+        Verdict::Unexplained => {
+            let perhaps = match doubles.is_empty() {
+                true => String::new(),
+                false => format!("; {doubles}"),
+            };
+            format!(
+                "the baseline leaves structure beyond the noise, and no cause of the catalogue predicts it{perhaps}."
+            )
+        }
     }
 }
 
+/// `sensor_delay` as `sensor delay`, `running_in` as the noun that it is.
+fn in_words(names: &str) -> String {
+    names.replace("running_in", "running-in").replace('_', " ")
+}
+
+/// The first letter raised.
+fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(rest).collect()
+    })
+}
+
 /// What a partial explanation does to prediction: better, worse, or neither beyond its scatter.
-fn partly(names: &str, ratio: f64, interval: Option<(f64, f64)>) -> String {
+fn partly((names, many): (&str, bool), ratio: f64, interval: Option<(f64, f64)>) -> String {
     let proven = interval.map_or(ratio < 1.0, |(_, upper)| upper < 1.0);
+    let (take, fit) = match many {
+        true => ("take", "fit"),
+        false => ("takes", "fits"),
+    };
     match (proven, ratio > 1.0) {
         (true, _) => {
-            format!("{names} takes the held-out error to {ratio:.2} of the baseline's")
+            format!("{names} {take} the held-out error to {ratio:.2} of the baseline's")
         }
         (false, false) => format!(
-            "{names} fits best, but the gain on unseen data is not proven (held-out error {ratio:.2} of the baseline's)"
+            "{names} {fit} best, but the gain on unseen data is not proven (held-out error {ratio:.2} of the baseline's)"
         ),
         (false, true) => format!(
-            "Prediction gets worse: {names} fits best what was fitted, but takes the held-out error to {ratio:.2} of the baseline's"
+            "{names} {fit} best what was fitted, but {take} the held-out error to {ratio:.2} of the baseline's"
         ),
     }
 }
@@ -191,4 +239,39 @@ pub fn next_experiment(findings: &Findings) -> Option<String> {
         unclear.ambiguous_with.join(" and "),
         page.separated_by
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verbs_agree_with_the_count_of_causes() {
+        let gain = (0.5, Some((0.4, 0.6)));
+        let explained = |names| said(Verdict::Explained, names, gain, (0.0, ""));
+        assert!(explained(("pinning", false)).starts_with("pinning explains"));
+        assert!(
+            explained(("creep and pinning", true)).starts_with("creep and pinning explain what")
+        );
+        let taken = partly(("creep and pinning", true), 0.5, gain.1);
+        assert_eq!(
+            taken,
+            "creep and pinning take the held-out error to 0.50 of the baseline's"
+        );
+    }
+
+    #[test]
+    fn what_may_be_something_else_is_not_asserted() {
+        let doubles = (0.1, "pinning: a specimen that settles");
+        let text = said(
+            Verdict::PartlyExplained,
+            ("pinning", false),
+            (0.5, None),
+            doubles,
+        );
+        assert!(text.starts_with(
+            "perhaps pinning, perhaps something that is not in the catalogue (pinning: a specimen that settles)."
+        ));
+        assert!(text.ends_with(". Pinning takes the held-out error to 0.50 of the baseline's."));
+    }
 }

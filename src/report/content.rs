@@ -6,22 +6,20 @@ use minijinja::value::Value;
 use super::CausePage;
 use super::compared::errors;
 use super::plots::Figure;
-use super::quantity::estimate;
+use super::quantity::{estimate, share};
 use super::symbols::marked_up;
 use super::wording;
 use crate::diagnose::Findings;
-use crate::diagnose::findings::{Candidate, Estimate, NamedCause, Verdict};
-use crate::record::written::{number, percent, quantity};
+use crate::diagnose::findings::{Estimate, NamedCause, Verdict};
+use crate::record::written::{number, quantity};
 
 /// Verdict, warning and the figures that sum the page up.
 pub(super) fn banner(findings: &Findings) -> Value {
     let worse = wording::worse_sentence(findings);
-    let sentence = wording::verdict_sentence(findings);
     context! {
         class => if worse.is_some() { "worse" } else { findings.verdict.name() },
         word => wording::verdict_word(findings.verdict),
-        summary => (findings.summary != sentence).then_some(&findings.summary),
-        sentence => sentence,
+        sentence => wording::verdict_sentence(findings),
         worse => worse,
         tiles => tiles(findings),
     }
@@ -51,7 +49,7 @@ fn tiles(findings: &Findings) -> Vec<Value> {
     if findings.verdict != Verdict::Clean {
         tiles.push(tile(
             "Left unexplained",
-            percent(findings.unexplained.share),
+            share(findings.unexplained.share),
             "of the explainable misfit".to_owned(),
         ));
     }
@@ -61,10 +59,10 @@ fn tiles(findings: &Findings) -> Vec<Value> {
 /// One card per named cause, with its page and those of its rivals where given.
 pub(super) fn causes(findings: &Findings, pages: &[CausePage]) -> Vec<Value> {
     let cards = findings.causes.iter();
-    cards.map(|cause| card(cause, pages)).collect()
+    cards.map(|cause| card(findings, cause, pages)).collect()
 }
 
-fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
+fn card(findings: &Findings, cause: &NamedCause, pages: &[CausePage]) -> Value {
     let page_of = |name: &str| pages.iter().find(|page| page.name == name);
     let rivals = cause.ambiguous_with.iter().map(|name| {
         context! {
@@ -72,8 +70,10 @@ fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
             happens => page_of(name).map(|page| &page.happens),
         }
     });
+    let perhaps = wording::perhaps_instead(findings, cause);
     context! {
         name => cause.name,
+        perhaps => perhaps,
         title => wording::capital(&wording::in_words(&cause.name)),
         kind => cause.kind,
         part => if cause.kind == "measurement" {
@@ -82,7 +82,7 @@ fn card(cause: &NamedCause, pages: &[CausePage]) -> Value {
             "part of the joint and of the exported unit"
         },
         weight => wording::weight_sentence(cause),
-        parameters => estimates(&cause.present()),
+        parameters => estimates(&cause.present(), |name| law_symbol(findings, &cause.name, name)),
         rivals => rivals.collect::<Vec<_>>(),
         page => page_of(&cause.name).map(|page| context! {
             happens => page.happens,
@@ -111,52 +111,57 @@ pub(super) fn gain(findings: &Findings) -> Value {
         noise => quantity(findings.noise.rms, &findings.noise.unit),
         method => findings.noise.method,
         autoregression => number(findings.noise.autoregression, 2),
-        effective => number(findings.noise.effective_samples.round(), 4),
+        effective => count(findings.noise.effective_samples),
+        of_tables => wording::of_tables(findings),
         rest => wording::rest_sentence(findings),
-        places => findings.unexplained.places,
+        places => wording::places(findings),
     }
 }
 
-/// Rows of a table of parameters.
-pub(super) fn estimates(estimates: &[Estimate]) -> Vec<Value> {
+/// A count as it is: `6242`.
+fn count(value: f64) -> String {
+    match value.is_finite() {
+        true => format!("{value:.0}"),
+        false => number(value, 3),
+    }
+}
+
+/// The letter of a parameter in the law of a cause of the joint. Causes of the measuring chain have left
+/// the joint, and their letters with them.
+fn law_symbol(findings: &Findings, cause: &str, parameter: &str) -> Option<&'static str> {
+    let mut effects = findings.joint.effects.iter();
+    let law = effects.find(|acting| acting.effect.name() == cause)?;
+    let mut glossary = law.effect.parameters().iter();
+    glossary
+        .find(|entry| entry.name == parameter)
+        .map(|entry| entry.symbol)
+}
+
+/// The letters of SAND2001-0811 for the joint's own parameters.
+fn joint_symbol(parameter: &str) -> Option<&'static str> {
+    match parameter {
+        "slip_force" => Some("F_S"),
+        "exponent" => Some("chi"),
+        "dissipation_coefficient" => Some("ϑ"),
+        _ => None,
+    }
+}
+
+/// Rows of the joint's own parameters.
+pub(super) fn joint_parameters(findings: &Findings) -> Vec<Value> {
+    estimates(&findings.joint_parameters, joint_symbol)
+}
+
+/// Rows of a table of parameters, each with the letter that its law has for it.
+fn estimates(estimates: &[Estimate], symbol: impl Fn(&str) -> Option<&'static str>) -> Vec<Value> {
     let rows = estimates.iter().map(|row| {
         let shown = estimate(row);
         context! {
             name => wording::in_words(&row.name),
-            value => shown.value,
-            error => shown.error,
-            interval => shown.interval,
-        }
-    });
-    rows.collect()
-}
-
-/// The whole catalogue, strongest first.
-pub(super) fn candidates(findings: &Findings) -> Vec<Value> {
-    let mut ranked: Vec<&Candidate> = findings.candidates.iter().collect();
-    // Candidates without a score come last.
-    let score = |candidate: &Candidate| {
-        if candidate.evidence.is_nan() {
-            f64::NEG_INFINITY
-        } else {
-            candidate.evidence
-        }
-    };
-    ranked.sort_by(|a, b| score(b).total_cmp(&score(a)));
-    let named = |candidate: &Candidate| {
-        let mut causes = findings.causes.iter();
-        causes.any(|cause| cause.name == candidate.name)
-    };
-    let optional = |value: Option<f64>| value.map_or("–".to_owned(), |value| number(value, 3));
-    let rows = ranked.into_iter().map(|candidate| {
-        context! {
-            name => wording::in_words(&candidate.name),
-            kind => candidate.kind,
-            named => named(candidate),
-            evidence => number(candidate.evidence, 3),
-            probability => percent(candidate.probability),
-            lambda_sep => optional(candidate.lambda_sep),
-            held_out_gain => optional(candidate.held_out_gain),
+            symbol => symbol(&row.name).map(marked_up),
+            value => marked_up(&shown.value),
+            error => marked_up(&shown.error),
+            interval => marked_up(&shown.interval),
         }
     });
     rows.collect()
@@ -179,5 +184,6 @@ pub(super) fn figure(figure: &Figure) -> Value {
         wide => figure.wide,
         keys => keys.map(|(class, label)| context! { class, label }).collect::<Vec<_>>(),
         svg => Value::from_safe_string(figure.svg.clone()),
+        narrow => figure.narrow.clone().map(Value::from_safe_string),
     }
 }

@@ -3,8 +3,12 @@
 use minijinja::value::Value;
 use minijinja::{Environment, UndefinedBehavior, context};
 
+use std::sync::Arc;
+
+use super::glossary::{self, Glossary};
 use super::symbols::marked_up;
-use super::{CausePage, ReportError, compared, content, outlook, plots};
+use super::wording::{in_prose, rows};
+use super::{CausePage, ReportError, compared, confusion, content, evidence, outlook, plots};
 use crate::diagnose::Findings;
 
 /// Named `.html`, so that every value is escaped.
@@ -20,6 +24,8 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
+    let glossary = Arc::new(Glossary::default());
+    environment.add_filter("explained", move |text: String| glossary.linked(&text));
     environment.add_template(TEMPLATE, include_str!("report.html"))?;
     let mut records = Vec::new();
     for curves in &findings.curves {
@@ -39,22 +45,27 @@ pub fn render(findings: &Findings, pages: &[CausePage]) -> Result<String, Report
         names => findings.records.iter().map(|(name, ..)| name).collect::<Vec<_>>(),
         banner => content::banner(findings),
         causes => content::causes(findings, pages),
+        perhaps => !findings.unexplained.doubles.is_empty(),
         gain => content::gain(findings),
         level_figures => plots::levels(findings)?.iter().map(content::figure).collect::<Vec<_>>(),
         levels => compared::levels(findings),
         levels_left => compared::levels_left(findings),
+        passed => compared::passed(findings),
         left_out => compared::left_out(findings),
         plots => records,
-        evidence => plots::evidence(findings)?.as_ref().map(content::figure),
-        candidates => content::candidates(findings),
-        parameters => content::estimates(&findings.joint_parameters),
-        not_identifiable => findings.not_identifiable.iter().map(|s| marked_up(s)).collect::<Vec<_>>(),
-        next_experiment => findings.next_experiment,
+        evidence => evidence::bars(findings),
+        candidates => evidence::candidates(findings),
+        untried => evidence::untried(findings),
+        parameters => content::joint_parameters(findings),
+        not_identifiable => findings.not_identifiable.iter().map(|s| marked_up(&in_prose(s))).collect::<Vec<_>>(),
+        next_experiment => findings.next_experiment.as_deref().map(in_prose),
         blocks => outlook::blocks(findings),
-        map => plots::map(findings)?.as_ref().map(content::figure),
+        map => confusion::map(findings),
         separability => outlook::separability(findings),
         dummy => outlook::dummy(findings),
         correction => outlook::correction(findings),
+        rows => rows(findings),
+        words => glossary::terms(),
         records => content::records(findings),
         notes => findings.notes,
     })?;

@@ -1,7 +1,10 @@
 //! One [`Findings`](crate::diagnose::Findings) value as text, HTML with plots, and JSON.
 
 mod compared;
+mod confusion;
 mod content;
+mod evidence;
+mod glossary;
 pub mod html;
 pub mod json;
 mod outlook;

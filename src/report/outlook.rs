@@ -3,7 +3,8 @@
 use minijinja::context;
 use minijinja::value::Value;
 
-use super::wording::in_words;
+use super::quantity::chi_squared;
+use super::wording::{in_prose, in_words};
 use crate::diagnose::Findings;
 use crate::diagnose::experiment::dummy::Ruling;
 use crate::diagnose::experiment::separability::TOLD;
@@ -12,7 +13,9 @@ use crate::record::written::{number, percent, quantity};
 /// Blocks of the next experiment, in words.
 pub(super) fn blocks(findings: &Findings) -> Vec<String> {
     let experiment = findings.outlook.experiment.as_ref();
-    experiment.map_or(Vec::new(), |e| e.blocks.clone())
+    experiment.map_or(Vec::new(), |e| {
+        e.blocks.iter().map(|block| in_prose(block)).collect()
+    })
 }
 
 /// The map of what is mistaken for what, the hardest to tell first.
@@ -25,14 +28,14 @@ pub(super) fn separability(findings: &Findings) -> Vec<Value> {
                 "none" => "the baseline".to_owned(),
                 name => in_words(name),
             };
-            format!("{name} ({})", number(*left, 3))
+            format!("{name} ({})", chi_squared(*left))
         });
         context! {
             name => in_words(&line.name),
-            taken => if line.fitted { "as fitted" } else { "at a size that would matter" },
+            fitted => line.fitted,
             hidden => line.lambda < TOLD,
-            lambda => number(line.lambda, 3),
-            baseline => number(line.baseline, 3),
+            lambda => chi_squared(line.lambda),
+            baseline => chi_squared(line.baseline),
             rivals => rivals.collect::<Vec<_>>().join(", "),
         }
     });

@@ -29,17 +29,25 @@ pub(super) fn marked_up(text: &str) -> Value {
     while let Some(first) = rest.chars().next() {
         let word = word(rest);
         if word.is_empty() {
-            let raised = rest.strip_prefix('^').map_or("", self::word);
+            let power = rest.strip_prefix('^').unwrap_or("");
+            let (raised, end) = match bracketed(power) {
+                Some(number) => (number, number.len() + 2),
+                None => (self::word(power), self::word(power).len()),
+            };
             if raised.is_empty() {
                 push_escaped(&mut page, first);
                 rest = &rest[first.len_utf8()..];
             } else {
                 page.push_str(&format!("<sup>{raised}</sup>"));
-                rest = &rest[1 + raised.len()..];
+                rest = &power[end..];
             }
             continue;
         }
         rest = &rest[word.len()..];
+        if let Some((before, power, after)) = derivative(word) {
+            page.push_str(&format!("{before}<sup>{power}</sup>{after}"));
+            continue;
+        }
         let letter = GREEK.iter().find(|(name, _)| *name == word);
         page.push_str(letter.map_or(word, |(_, letter)| letter));
         let lowered = rest.strip_prefix('_').map_or("", subscript);
@@ -63,10 +71,31 @@ pub(super) fn marked_up(text: &str) -> Value {
     Value::from_safe_string(page)
 }
 
+/// A number in brackets at the beginning, as a unit has it: `N^(2.65)`.
+fn bracketed(text: &str) -> Option<&str> {
+    let number = text.strip_prefix('(')?.split(')').next()?;
+    let digits = number
+        .chars()
+        .all(|c| c.is_ascii_digit() || "+-.".contains(c));
+    (digits && text.len() > number.len() + 1).then_some(number)
+}
+
 /// Letters and digits at the beginning.
 fn word(text: &str) -> &str {
     let end = text.find(|c: char| !c.is_alphanumeric());
     &text[..end.unwrap_or(text.len())]
+}
+
+/// `d2U` and `dt2` in pieces: the order of a derivative, raised.
+fn derivative(word: &str) -> Option<(&str, &str, &str)> {
+    let order = word.strip_prefix('d')?.find(|c: char| c.is_ascii_digit())? + 1;
+    let (before, raised) = word.split_at(order);
+    let (power, after) = raised.split_at(1);
+    let single = |text: &str| text.chars().count() == 1 && text.chars().all(char::is_alphabetic);
+    // Either dⁿ before its variable, or the variable before its power.
+    let upper = before == "d" && single(after);
+    let lower = after.is_empty() && before.strip_prefix('d').is_some_and(single);
+    (upper || lower).then_some((before, power, after))
 }
 
 /// A word, or the sign of a side: `g_+`.
@@ -75,6 +104,15 @@ fn subscript(text: &str) -> &str {
         "" if text.starts_with(['+', '-']) => &text[..1],
         word => word,
     }
+}
+
+/// The text with the characters of markup escaped.
+pub(super) fn escaped(text: &str) -> String {
+    let mut page = String::with_capacity(text.len());
+    for character in text.chars() {
+        push_escaped(&mut page, character);
+    }
+    page
 }
 
 fn push_escaped(page: &mut String, character: char) {
@@ -105,6 +143,15 @@ mod tests {
             page("phi_0 exp(-(s/d)^2), 2 pi f_c & dl/dt"),
             "φ<sub>0</sub> exp(-(s/d)<sup>2</sup>), 2 π f<sub>c</sub> &amp; dl/dt"
         );
+    }
+
+    #[test]
+    fn orders_of_derivatives_are_raised() {
+        assert_eq!(
+            page("F + m d2U/dt2, d2 and dose2"),
+            "F + m d<sup>2</sup>U/dt<sup>2</sup>, d2 and dose2"
+        );
+        assert_eq!(page("nJ/N^(2.650) or x^(a"), "nJ/N<sup>2.650</sup> or x^(a");
     }
 
     #[test]

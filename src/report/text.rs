@@ -7,14 +7,15 @@ use crate::diagnose::Findings;
 use crate::diagnose::findings::{Estimate, NamedCause};
 use crate::record::written::quantity;
 
-/// Lines at most; what does not fit is counted and stands in diagnosis.json.
+/// Lines at most, named causes apart; what does not fit is counted and stands in diagnosis.json.
 const MOST_LINES: usize = 40;
 /// Columns at most, where words allow.
 const WIDTH: usize = 96;
 /// Columns of the labels at the left.
 const LABEL: usize = 15;
 
-/// The findings as plain text of at most 40 lines, ending in a line break.
+/// The findings as plain text of at most 40 lines (more only where named causes alone are longer), ending in a
+/// line break.
 ///
 /// The first line is the verdict, or that the prediction of unseen data got worse.
 pub fn render(findings: &Findings) -> String {
@@ -53,67 +54,79 @@ pub fn render(findings: &Findings) -> String {
 struct Section {
     label: &'static str,
     lines: Vec<String>,
-    /// Lines that must stay, from the first on.
+    /// Counts of lines that belong together (a sentence, an item, a row), in order.
+    items: Vec<usize>,
+    /// Items that must stay, from the first on.
     kept: usize,
     full_width: bool,
 }
 
 impl Section {
+    /// A section of one item.
     fn new(label: &'static str, lines: Vec<String>) -> Section {
+        Section::of(label, vec![lines])
+    }
+
+    /// A section of items that stay whole or go whole.
+    fn of(label: &'static str, items: Vec<Vec<String>>) -> Section {
+        let items: Vec<Vec<String>> = items.into_iter().filter(|item| !item.is_empty()).collect();
         Section {
             label,
+            items: items.iter().map(Vec::len).collect(),
             kept: 1,
-            lines,
+            lines: items.into_iter().flatten().collect(),
             full_width: false,
         }
     }
+
+    /// The same section, all of which must stay.
+    fn whole(mut self) -> Section {
+        self.kept = self.items.len();
+        self
+    }
+
+    /// Lines of items that may go.
+    fn spare(&self) -> usize {
+        self.items.iter().skip(self.kept).sum()
+    }
 }
 
-/// Takes lines from the longest sections until the page fits, saying how many.
+/// Takes items from the longest sections, the last ones first, until the page fits, saying how many. No
+/// sentence is cut, and named causes stay whole: of many a page is longer.
 fn shorten(sections: &mut [Section]) {
     let total: usize = sections.iter().map(|section| section.lines.len()).sum();
-    let mut excess = total.saturating_sub(MOST_LINES);
+    let mut excess = total.saturating_sub(MOST_LINES) as i64;
     let mut taken = vec![0; sections.len()];
     while excess > 0 {
-        // A section that loses its first line gains the line that says so: take two then.
+        // The first item taken from a section makes room for the line that says so.
         let longest = (0..sections.len())
-            .filter(|&i| sections[i].lines.len() - taken[i] > sections[i].kept + 1)
-            .max_by_key(|&i| sections[i].lines.len() - taken[i]);
+            .filter(|&i| sections[i].spare() > usize::from(taken[i] == 0))
+            .max_by_key(|&i| sections[i].lines.len());
         let Some(longest) = longest else { break };
-        if taken[longest] == 0 {
-            taken[longest] = 2;
-        } else {
-            taken[longest] += 1;
-        }
-        excess -= 1;
+        let section = &mut sections[longest];
+        let count = section.items.pop().unwrap_or(0);
+        section.lines.truncate(section.lines.len() - count);
+        excess -= count as i64 - i64::from(taken[longest] == 0);
+        taken[longest] += 1;
     }
     for (section, taken) in sections.iter_mut().zip(taken) {
         if taken > 0 {
-            section.lines.truncate(section.lines.len() - taken);
             section
                 .lines
-                .push(format!("… {taken} lines more: see diagnosis.json"));
+                .push(format!("… {taken} more in diagnosis.json"));
         }
     }
 }
 
 fn verdict(findings: &Findings) -> Section {
     let word = wording::verdict_word(findings.verdict).to_uppercase();
-    let mut lines = Vec::new();
-    if let Some(warning) = wording::worse_sentence(findings) {
-        lines.extend(wrap(&format!("WORSE. {warning}"), WIDTH));
-    }
-    let sentence = wording::verdict_sentence(findings);
-    lines.extend(wrap(&format!("{word}. {sentence}"), WIDTH));
-    let kept = lines.len();
-    if findings.summary != sentence {
-        lines.extend(wrap(&findings.summary, WIDTH));
-    }
+    let warning = wording::worse_sentence(findings);
+    let warning = warning.map(|warning| wrap(&format!("WORSE. {warning}"), WIDTH));
+    let sentence = format!("{word}. {}", wording::verdict_sentence(findings));
+    let items = warning.into_iter().chain([wrap(&sentence, WIDTH)]);
     Section {
-        label: "",
-        lines,
-        kept,
         full_width: true,
+        ..Section::of("", items.collect()).whole()
     }
 }
 
@@ -122,84 +135,85 @@ fn wrong(findings: &Findings) -> Section {
 }
 
 fn causes(findings: &Findings) -> Vec<Section> {
-    findings.causes.iter().map(cause).collect()
+    let causes = findings.causes.iter();
+    causes.map(|one| cause(one, findings)).collect()
 }
 
-fn cause(cause: &NamedCause) -> Section {
-    let mut lines = vec![format!("{} ({})", cause.name, cause.kind)];
+/// The name as programs know it, once; in the sentences it stands in words.
+fn cause(cause: &NamedCause, findings: &Findings) -> Section {
+    let mut items = vec![vec![format!("{} ({})", cause.name, cause.kind)]];
     if !cause.ambiguous_with.is_empty() {
-        lines.extend(column(&format!(
+        let rivals = cause.ambiguous_with.iter();
+        let rivals: Vec<String> = rivals.map(|name| wording::in_words(name)).collect();
+        items.push(column(&format!(
             "not to be told from: {}",
-            cause.ambiguous_with.join(", ")
+            rivals.join(", ")
         )));
     }
-    let kept = lines.len();
-    lines.extend(table(&cause.present()));
-    lines.extend(column(&wording::weight_sentence(cause)));
-    Section {
-        kept,
-        ..Section::new("Cause", lines)
+    if let Some(perhaps) = wording::perhaps_instead(findings, cause) {
+        items.push(column(&perhaps));
     }
+    items.extend(table(&cause.present()));
+    items.push(column(&wording::weight_sentence(cause)));
+    Section::of("Cause", items).whole()
 }
 
 fn gain(findings: &Findings) -> Section {
-    let mut lines = column(&wording::gain_sentence(findings));
+    let mut items = vec![column(&wording::gain_sentence(findings))];
     if wording::change(findings) != wording::Change::None {
-        lines.extend(column(&wording::capital(&format!(
+        items.push(column(&wording::capital(&format!(
             "{}.",
             wording::error_step(findings)
         ))));
     }
-    let energy = wording::energy_sentence(findings);
-    lines.extend(column(&energy));
-    lines.extend(column(&wording::left_out_sentence(findings)));
+    items.push(column(&wording::energy_sentence(findings)));
+    items.push(column(&wording::left_out_sentence(findings)));
     Section {
         kept: 2,
-        ..Section::new("Gain", lines)
+        ..Section::of("Gain", items)
     }
 }
 
 fn left(findings: &Findings) -> Section {
-    let mut lines = column(&format!(
+    let mut items = vec![column(&format!(
         "{} Noise {}: {}.",
         wording::rest_sentence(findings),
         quantity(findings.noise.rms, &findings.noise.unit),
         findings.noise.method
-    ));
-    lines.extend(
-        findings
-            .unexplained
-            .places
-            .iter()
-            .flat_map(|place| bullet(place)),
-    );
-    Section::new("What remains", lines)
+    ))];
+    let places = wording::places(findings).into_iter();
+    items.extend(places.map(|place| bullet(&place)));
+    Section::of("What remains", items)
 }
 
 fn joint(findings: &Findings) -> Section {
-    Section::new("Joint", table(&findings.joint_parameters))
+    Section::of("Joint", table(&findings.joint_parameters))
 }
 
 fn next(findings: &Findings) -> Section {
     let experiment = findings.next_experiment.as_deref().unwrap_or("");
-    Section::new("Next", column(experiment))
+    Section::new("Next", column(&wording::in_prose(experiment)))
 }
 
 fn records(findings: &Findings) -> Section {
     let names = findings.records.iter();
     let names: Vec<String> = names
-        .map(|(name, samples, _)| format!("{name} ({samples} samples)"))
+        .map(|(name, count, _)| format!("{name} ({count} {})", wording::rows(findings)))
         .collect();
     Section::new("Records", column(&names.join(", ")))
 }
 
 fn sentences(label: &'static str, sentences: &[String]) -> Section {
-    let lines = sentences.iter().flat_map(|sentence| bullet(sentence));
-    Section::new(label, lines.collect())
+    let items = sentences.iter().map(|sentence| match label {
+        // Notes name records, whose names are not ours to change.
+        "Notes" => bullet(sentence),
+        _ => bullet(&wording::in_prose(sentence)),
+    });
+    Section::of(label, items.collect())
 }
 
-/// Name, value and error of each estimate, in columns.
-fn table(estimates: &[Estimate]) -> Vec<String> {
+/// Name, value and error of each estimate, in columns; a row is an item.
+fn table(estimates: &[Estimate]) -> Vec<Vec<String>> {
     let rows: Vec<_> = estimates
         .iter()
         .map(|row| (row.name.as_str(), estimate(row)))
@@ -215,7 +229,10 @@ fn table(estimates: &[Estimate]) -> Vec<String> {
         .max()
         .unwrap_or(0);
     rows.iter()
-        .map(|(label, shown)| format!("{label:name$}  {:>value$}  {}", shown.value, shown.error))
+        .map(|(label, shown)| {
+            let row = format!("{label:name$}  {:>value$}  {}", shown.value, shown.error);
+            vec![row]
+        })
         .collect()
 }
 
@@ -235,7 +252,9 @@ fn bullet(text: &str) -> Vec<String> {
 /// Text broken at white space into lines of at most `width` characters, where words allow.
 fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    // A number and its sign stay on one line.
+    let text = text.replace(" %", "\u{a0}%").replace(" ×", "\u{a0}×");
+    for word in text.split_ascii_whitespace() {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
                 line.push(' ');
@@ -245,4 +264,7 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
         }
     }
     lines
+        .iter()
+        .map(|line| line.replace('\u{a0}', " "))
+        .collect()
 }

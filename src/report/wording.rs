@@ -1,5 +1,6 @@
 //! Sentences that the screen and the page share.
 
+use super::quantity::share;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::{NamedCause, Verdict};
 use crate::record::written::{number, percent, quantity};
@@ -46,37 +47,22 @@ pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The verdict in words, with the causes it rests on.
+/// The verdict in a sentence or two, names of causes in words.
 pub(super) fn verdict_sentence(findings: &Findings) -> String {
-    let names: Vec<String> = findings.causes.iter().map(named).collect();
-    let causes = enumerate(&names);
-    match (findings.verdict, names.is_empty()) {
-        (Verdict::Clean, true) => {
-            "The baseline joint explains the record to the noise; nothing is wrong with it.".into()
-        }
-        (Verdict::Clean, false) => format!(
-            "The baseline joint explains the record to the noise; {causes} can be seen and does not matter."
-        ),
-        (Verdict::Explained, _) => format!("With {causes} only noise is left."),
-        (Verdict::PartlyExplained, _) if !findings.unexplained.doubles.is_empty() => format!(
-            "{causes} may be something else that is not in the catalogue ({}).",
-            findings.unexplained.doubles.join("; ")
-        ),
-        (Verdict::PartlyExplained, _) => {
-            format!("With {causes} a part is explained; structure beyond the noise remains.")
-        }
-        (Verdict::Unexplained, true) if !findings.unexplained.doubles.is_empty() => format!(
-            "Structure beyond the noise that no cause of the catalogue predicts out of sample; {}.",
-            findings.unexplained.doubles.join("; ")
-        ),
-        (Verdict::Unexplained, true) => {
-            "Structure beyond the noise that no cause of the catalogue predicts out of sample."
-                .into()
-        }
-        (Verdict::Unexplained, false) => format!(
-            "Structure beyond the noise remains that {causes} does not predict out of sample."
-        ),
-    }
+    in_prose(&findings.summary)
+}
+
+/// What may be at work in the place of a named cause and is not in the catalogue.
+pub(super) fn perhaps_instead(findings: &Findings, cause: &NamedCause) -> Option<String> {
+    let own = format!("{}: ", cause.name);
+    let doubles = findings.unexplained.doubles.iter();
+    let clauses: Vec<&str> = doubles.filter_map(|d| d.strip_prefix(&own)).collect();
+    (!clauses.is_empty()).then(|| {
+        format!(
+            "Perhaps something that is not in the catalogue instead: {}.",
+            in_prose(&clauses.join("; "))
+        )
+    })
 }
 
 /// The warning that comes before everything else where the prediction got worse: of held-out cycles,
@@ -131,14 +117,14 @@ pub(super) fn ratio(findings: &Findings) -> String {
 
 /// What the change of the held-out error means.
 pub(super) fn gain_sentence(findings: &Findings) -> String {
-    let share = percent((1.0 - findings.gain.0).abs());
+    let fall = percent((1.0 - findings.gain.0).abs());
     match change(findings) {
         Change::None => "Nothing was added to the baseline joint.".to_owned(),
-        Change::Better => format!("The error on unseen data falls by {share}."),
+        Change::Better => format!("The error on unseen data falls by {fall}."),
         Change::PerhapsBetter => {
-            format!("The error on unseen data falls by {share}; the data do not prove a gain.")
+            format!("The error on unseen data falls by {fall}; the data do not prove a gain.")
         }
-        Change::Worse => format!("The error on unseen data rises by {share}."),
+        Change::Worse => format!("The error on unseen data rises by {fall}."),
     }
 }
 
@@ -169,11 +155,11 @@ pub(super) fn energy_sentence(findings: &Findings) -> String {
         (Some(before), Some(after)) if !findings.causes.is_empty() => {
             format!(
                 "{name} off by {} before, {} after.",
-                percent(before),
-                percent(after)
+                share(before),
+                share(after)
             )
         }
-        (Some(before), _) => format!("{name} off by {}.", percent(before)),
+        (Some(before), _) => format!("{name} off by {}.", share(before)),
         _ => String::new(),
     };
     let said = [
@@ -208,7 +194,7 @@ pub(super) fn left_out_sentence(findings: &Findings) -> String {
 pub(super) fn weight_sentence(cause: &NamedCause) -> String {
     format!(
         "Changes {} of the energy per cycle; without it the misfit rises by {} noise variances.",
-        percent(cause.matters),
+        share(cause.matters),
         number(cause.evidence, 3)
     )
 }
@@ -220,27 +206,47 @@ pub(super) fn rest_sentence(findings: &Findings) -> String {
     }
     format!(
         "{} of the explainable misfit is left.",
-        percent(findings.unexplained.share)
+        share(findings.unexplained.share)
     )
 }
 
-/// A cause with the names that the data cannot tell from it.
-pub(super) fn named(cause: &NamedCause) -> String {
-    let own = in_words(&cause.name);
-    if cause.ambiguous_with.is_empty() {
-        return own;
-    }
-    let rivals: Vec<String> = cause
-        .ambiguous_with
-        .iter()
-        .map(|name| in_words(name))
-        .collect();
-    format!("{own} (or {})", rivals.join(" or "))
+/// `sensor_delay` as `sensor delay`, `running_in` as the noun that it is.
+pub(super) fn in_words(name: &str) -> String {
+    name.replace("running_in", "running-in").replace('_', " ")
 }
 
-/// `sensor_delay` as `sensor delay`.
-pub(super) fn in_words(name: &str) -> String {
-    name.replace('_', " ")
+/// Where structure is left, what is said of one stretch put together: several bins may lie in it.
+pub(super) fn places(findings: &Findings) -> Vec<String> {
+    const SHARE: &str = " % of the structure";
+    let mut places: Vec<(&str, Option<u32>)> = Vec::new();
+    for place in &findings.unexplained.places {
+        let share = place.strip_suffix(SHARE).and_then(|p| p.rsplit_once(": "));
+        let share = share.and_then(|(stretch, share)| Some((stretch, share.parse().ok()?)));
+        let (stretch, share) =
+            share.map_or((place.as_str(), None), |(s, n): (_, u32)| (s, Some(n)));
+        match places.iter_mut().find(|(known, _)| *known == stretch) {
+            Some((_, sum)) => *sum = sum.zip(share).map(|(sum, share)| sum + share),
+            None => places.push((stretch, share)),
+        }
+    }
+    let said = places.into_iter().map(|(stretch, share)| match share {
+        Some(share) => format!("{stretch}: {share}{SHARE}"),
+        None => stretch.to_owned(),
+    });
+    said.collect()
+}
+
+/// Whether amplitude tables were diagnosed: they are judged in no channel of a time history.
+pub(super) fn of_tables(findings: &Findings) -> bool {
+    !["displacement", "force"].contains(&findings.judged.as_str())
+}
+
+/// What the rows of a record are.
+pub(super) fn rows(findings: &Findings) -> &'static str {
+    match of_tables(findings) {
+        true => "levels",
+        false => "samples",
+    }
 }
 
 /// The first letter raised.
@@ -251,11 +257,48 @@ pub(super) fn capital(text: &str) -> String {
     })
 }
 
-/// `a, b and c`.
-fn enumerate(names: &[String]) -> String {
-    match names {
-        [] => "the named causes".to_owned(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+/// A sentence with the names of causes and parameters in words: `tell running_in from creep` →
+/// `tell running-in from creep`. Symbols (`F_S`) and names of files stay.
+pub(super) fn in_prose(sentence: &str) -> String {
+    let mut prose = String::with_capacity(sentence.len());
+    let mut rest = sentence;
+    while !rest.is_empty() {
+        let within = |c: char| c.is_alphanumeric() || c == '_';
+        let end = rest.find(|c| !within(c)).unwrap_or(rest.len());
+        if end == 0 {
+            let first = rest.chars().next().map_or(0, char::len_utf8);
+            prose.push_str(&rest[..first]);
+            rest = &rest[first..];
+            continue;
+        }
+        let (word, more) = rest.split_at(end);
+        let file = more.strip_prefix('.').is_some_and(|ending| {
+            let mut letters = ending.chars();
+            letters.next().is_some_and(|c| c.is_ascii_lowercase())
+        });
+        let named = word
+            .split('_')
+            .all(|part| part.len() > 1 && part.chars().all(|c| c.is_ascii_lowercase()));
+        prose.push_str(&match named && !file {
+            true => in_words(word),
+            false => word.to_owned(),
+        });
+        rest = more;
+    }
+    prose
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_prose;
+
+    #[test]
+    fn names_stand_in_words_in_prose() {
+        assert_eq!(
+            in_prose(
+                "To show preload_loss, running_in: run next_experiment.csv; F_S and K_1 stay."
+            ),
+            "To show preload loss, running-in: run next_experiment.csv; F_S and K_1 stay."
+        );
     }
 }

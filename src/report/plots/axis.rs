@@ -27,6 +27,10 @@ const WIDE: f64 = 2.5;
 /// Ticks of a logarithmic axis below which it has all that are round.
 const FEWEST: usize = 3;
 
+/// Share of the range that a tick of a logarithmic axis keeps from the last one, so that their labels
+/// do not touch.
+const CLOSEST: f64 = 0.08;
+
 impl Axis {
     /// An axis over all finite `values` (SI) with about `count` ticks; `None` where there is none.
     pub(super) fn over(
@@ -110,6 +114,15 @@ impl Axis {
             true => within(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
             false => sparse,
         };
+        let apart = CLOSEST * (upper - lower);
+        let ticks = ticks
+            .into_iter()
+            .fold(Vec::new(), |mut kept: Vec<f64>, tick| {
+                if kept.last().is_none_or(|last| tick - last >= apart) {
+                    kept.push(tick);
+                }
+                kept
+            });
         Axis {
             title: titled(name, &scale.unit),
             lower,

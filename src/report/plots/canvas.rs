@@ -15,7 +15,7 @@ pub(super) const FINE: u32 = 4;
 const TEXT: f64 = 11.5 * 1.24;
 
 pub(super) type Failure = Box<dyn std::error::Error + Send + Sync>;
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(super) type Plane = Cartesian2d<Axis, Axis>;
 pub(super) type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Plane>;
 
@@ -30,8 +30,9 @@ pub(super) fn draw(
         let mut chart = ChartBuilder::on(area)
             .margin(fine(6))
             .margin_right(fine(12))
-            .x_label_area_size(fine(38))
-            .y_label_area_size(fine(60))
+            // Room for letters half as large again: a narrow page asks for them.
+            .x_label_area_size(fine(44))
+            .y_label_area_size(fine(68))
             .build_cartesian_2d(x.clone(), y.clone())?;
         let text = ink().pos(plotters::style::text_anchor::Pos::default());
         chart
@@ -51,7 +52,7 @@ pub(super) fn draw(
 }
 
 /// An `<svg>` of `width` × `height` shown pixels, drawn freely.
-pub(super) fn on_area(
+fn on_area(
     plot: &str,
     (width, height): (u32, u32),
     fill: impl FnOnce(&Area) -> Result<(), Failure>,
@@ -94,7 +95,7 @@ pub(super) fn fine(pixels: u32) -> u32 {
 }
 
 /// The style of all text.
-pub(super) fn ink() -> TextStyle<'static> {
+fn ink() -> TextStyle<'static> {
     ("sans-serif", TEXT * f64::from(FINE))
         .into_font()
         .color(&palette::INK)

@@ -1,11 +1,11 @@
 //! Energy lost per cycle, measured and predicted.
 
 use plotters::element::{Circle, Cross, TriangleMarker};
-use plotters::style::Color;
+use plotters::style::{Color, RGBColor};
 
 use super::axis::Axis;
-use super::canvas::{FINE, curve, draw as on_canvas, fine, placed};
-use super::{Figure, MOST_POINTS, decimate, extends, keys, palette};
+use super::canvas::{Chart, FINE, Failure, curve, draw as on_canvas, fine, placed};
+use super::{Figure, MOST_POINTS, decimate, extends, keys, marks, palette};
 use crate::diagnose::Findings;
 use crate::diagnose::findings::RecordCurves;
 use crate::report::ReportError;
@@ -37,54 +37,67 @@ pub(super) fn draw(
         .iter()
         .flat_map(|points| points.iter().map(|point| point.1));
     let abscissae = (0..curves.cycles.len()).map(|index| index as f64 + 1.0);
-    let (Some(x), Some(y)) = (
-        Axis::over("cycle", "1", abscissae, 12),
-        Axis::from_zero_or_logarithmic("energy per cycle", "J", ordinates, 5),
-    ) else {
+    let x = |ticks| Axis::over("cycle", "1", abscissae.clone(), ticks);
+    let y = Axis::from_zero_or_logarithmic("energy per cycle", "J", ordinates, 5);
+    let (Some(wide), Some(narrow), Some(y)) = (x(12), x(5), y) else {
         return Ok(None);
     };
-    let x = x.whole();
-    let axes = (&x, &y);
     let marked = curves.cycles.len() <= 120;
-    let svg = on_canvas("energy per cycle", (1060, 260), axes, |chart| {
-        let colours = [palette::MEASURED, palette::BASELINE, palette::EXTENDED];
-        for (points, colour) in all.into_iter().zip(colours) {
-            let points: Vec<_> = placed(points, axes)
-                .filter(|point| point.1.is_finite())
-                .collect();
-            curve(
-                chart,
-                points.iter().copied(),
-                colour
-                    .mix(0.6)
-                    .stroke_width(if colour == palette::MEASURED {
-                        3 * FINE
-                    } else {
-                        FINE
-                    }),
-            )?;
-            if !marked {
-                continue;
+    let draw = |x: Axis, size: (u32, u32)| {
+        let x = x.whole();
+        on_canvas("energy per cycle", size, (&x, &y), |chart| {
+            let colours = [palette::MEASURED, palette::BASELINE, palette::EXTENDED];
+            for (points, colour) in all.into_iter().zip(colours) {
+                let points: Vec<_> = placed(points, (&x, &y))
+                    .filter(|point| point.1.is_finite())
+                    .collect();
+                let width = if colour == palette::MEASURED { 3 } else { 1 };
+                let style = colour.mix(0.6).stroke_width(width * FINE);
+                curve(chart, points.iter().copied(), style)?;
+                if marked {
+                    mark(chart, &points, colour)?;
+                }
             }
-            let places = points.into_iter();
-            if colour == palette::MEASURED {
-                chart.draw_series(places.map(|at| Circle::new(at, fine(4), colour.filled())))?;
-            } else if colour == palette::BASELINE {
-                chart.draw_series(
-                    places.map(|at| TriangleMarker::new(at, fine(4), colour.filled())),
-                )?;
-            } else {
-                let style = colour.stroke_width(2 * FINE);
-                chart.draw_series(places.map(|at| Cross::new(at, fine(3), style)))?;
-            }
-        }
-        Ok(())
-    })?;
+            Ok(())
+        })
+    };
+    let svg = draw(wide, (1060, 260))?;
+    let narrow = draw(narrow, (520, 300))?;
+    let keys = if marked {
+        marks(findings, true)
+    } else {
+        keys(findings, true)
+    };
     Ok(Some(Figure {
         title: "Energy per cycle".to_owned(),
         caption: "What the joint dissipates in each closed cycle.".to_owned(),
-        keys: keys(findings, true),
+        keys,
         svg,
+        narrow: Some(narrow),
         wide: true,
     }))
+}
+
+/// The marks of the legend: rings as measured, triangles and crosses within them.
+pub(super) fn mark(
+    chart: &mut Chart,
+    places: &[(f64, f64)],
+    colour: RGBColor,
+) -> Result<(), Failure> {
+    let places = places.iter().copied();
+    match colour {
+        palette::MEASURED => {
+            let style = colour.stroke_width(2 * FINE);
+            chart.draw_series(places.map(|at| Circle::new(at, fine(6), style)))?;
+        }
+        palette::BASELINE => {
+            let style = colour.filled();
+            chart.draw_series(places.map(|at| TriangleMarker::new(at, fine(4), style)))?;
+        }
+        _ => {
+            let style = colour.stroke_width(2 * FINE);
+            chart.draw_series(places.map(|at| Cross::new(at, fine(3), style)))?;
+        }
+    }
+    Ok(())
 }

@@ -83,6 +83,7 @@ pub(super) fn draw(
         },
         keys,
         svg,
+        narrow: None,
         wide: false,
     }))
 }

@@ -2,11 +2,9 @@
 
 mod axis;
 mod canvas;
-mod confusion;
 mod cycles;
 mod decimate;
 mod energy;
-mod evidence;
 mod levels;
 mod loops;
 mod palette;
@@ -17,10 +15,12 @@ mod residual_time;
 use super::ReportError;
 use crate::diagnose::Findings;
 use crate::diagnose::findings::RecordCurves;
-use canvas::Area;
 
 /// Points of one curve at most; extremes are kept.
 const MOST_POINTS: usize = 1500;
+
+/// The same in a drawing for a narrow page.
+const MOST_NARROW: usize = 500;
 
 /// A plot with what is said beneath it.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,8 @@ pub(super) struct Figure {
     pub(super) keys: Vec<(&'static str, String)>,
     /// The drawing: one `<svg>` element.
     pub(super) svg: String,
+    /// The same for a narrow page, where the drawing is a wide one.
+    pub(super) narrow: Option<String>,
     /// Whether it takes the full width of the page.
     pub(super) wide: bool,
 }
@@ -54,22 +56,6 @@ pub(super) fn of_record(
     Ok(drawn.into_iter().flatten().collect())
 }
 
-/// The evidence of every candidate; `None` where nothing was scored.
-///
-/// # Errors
-/// [`ReportError::Plot`] where the drawing library fails.
-pub(super) fn evidence(findings: &Findings) -> Result<Option<Figure>, ReportError> {
-    evidence::draw(findings)
-}
-
-/// The map of what is mistaken for what; `None` where it was not computed.
-///
-/// # Errors
-/// [`ReportError::Plot`] where the drawing library fails.
-pub(super) fn map(findings: &Findings) -> Result<Option<Figure>, ReportError> {
-    confusion::draw(findings)
-}
-
 /// Loss and stiffness over amplitude; none where no level was measured.
 ///
 /// # Errors
@@ -81,6 +67,17 @@ pub(super) fn levels(findings: &Findings) -> Result<Vec<Figure>, ReportError> {
 /// Whether the extended joint differs from the baseline, so that it is worth a curve.
 fn extends(findings: &Findings) -> bool {
     !findings.causes.is_empty()
+}
+
+/// The legend of a plot of points: every model has a mark of its own.
+fn marks(findings: &Findings, measured: bool) -> Vec<(&'static str, String)> {
+    let each = keys(findings, measured).into_iter();
+    each.map(|(class, label)| match class {
+        "measured" => ("mark ring", label),
+        "baseline" => ("mark triangle", label),
+        _ => ("mark cross", label),
+    })
+    .collect()
 }
 
 /// The legend of the curves of a plot.

@@ -10,8 +10,6 @@ pub(super) const MEASURED: RGBColor = RGBColor(0x8A, 0x8F, 0x98);
 pub(super) const BASELINE: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 /// The extended joint: blue.
 pub(super) const EXTENDED: RGBColor = RGBColor(0x00, 0x72, 0xB2);
-/// Candidates that the data cannot tell from a named cause: orange.
-pub(super) const AMBIGUOUS: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 /// The band of the noise: bluish green.
 pub(super) const NOISE: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 /// Data that no fit has seen: yellow.

@@ -81,6 +81,7 @@ pub(super) fn draw(
         ),
         keys,
         svg,
+        narrow: None,
         wide: false,
     }))
 }
