@@ -184,6 +184,12 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
         };
         let (cause, fit) = &members[best];
         if cause.name() != named.effect.name() {
+            let more = (fit.misfit - found.best.misfit) / dispersion(&bench.train, fit);
+            found
+                .evidence
+                .get_mut(place)
+                .into_iter()
+                .for_each(|e| *e -= more);
             found.best = fit.clone();
         }
         let rivals = left.iter().filter(|m| **m != best);
