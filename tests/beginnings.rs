@@ -11,17 +11,6 @@ use std::f64::consts::TAU;
 
 const CYCLE: usize = 80;
 
-/// What was kept of a test, a hundred samples a second.
-fn cut(force: Vec<f64>, displacement: Vec<f64>) -> Record {
-    Record {
-        name: "cut".to_string(),
-        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
-}
-
 /// Sixty sliders under a stepped sine of displacement with noise in the force: 22 cycles, of which the record
 /// keeps those from sample `from` on, reading `zero` too much.
 fn record(seed: u64, from: usize, zero: f64) -> Record {
@@ -44,7 +33,7 @@ fn record(seed: u64, from: usize, zero: f64) -> Record {
             displacement.push(u + zero);
         }
     }
-    cut(force, displacement)
+    plays::record("cut", force, displacement)
 }
 
 /// Seed of the noise; printed with every failure.
@@ -87,7 +76,7 @@ fn drifting(from: usize, drift: f64) -> Record {
     let reads = |(i, u): (usize, f64)| u + drift * passed(i) + 2e-8 * noise();
     let displacement = truth.enumerate().skip(from).map(reads).collect();
     force.drain(..from);
-    cut(force, displacement)
+    plays::record("cut", force, displacement)
 }
 
 #[test]

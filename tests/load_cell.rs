@@ -30,13 +30,7 @@ fn record(read: impl Fn(usize, f64) -> f64) -> Record {
     let displacement = displacement.map(|u| u + 2e-8 * noise()).collect();
     let cell = truth.iter().enumerate();
     let force: Vec<f64> = cell.map(|(i, &bears)| read(i, bears)).collect();
-    Record {
-        name: "by_force".to_string(),
-        time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
+    plays::record("by_force", force, displacement)
 }
 
 fn named(findings: &Findings) -> Vec<&str> {

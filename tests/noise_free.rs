@@ -4,7 +4,6 @@ mod plays;
 
 use iwan::diagnose::diagnose;
 use iwan::diagnose::findings::{Findings, Verdict};
-use iwan::record::Record;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
@@ -20,16 +19,6 @@ fn force() -> Vec<f64> {
     let level = |i: usize| LEVELS[i / (4 * CYCLE)];
     let sine = |i: usize| (TAU * i as f64 / CYCLE as f64).sin();
     (0..count).map(|i| level(i) * sine(i)).collect()
-}
-
-fn record(force: Vec<f64>, displacement: Vec<f64>) -> Record {
-    Record {
-        name: "still".to_string(),
-        time: Some((0..force.len()).map(|i| 0.005 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
 }
 
 fn noted(findings: &Findings, what: &str) -> bool {
@@ -54,7 +43,7 @@ fn a_simulated_joint_is_clean_and_so_is_a_spring() {
     let joints = [plays::displacement(&force()), sliders(&force())];
     let spring = force().iter().map(|f| 5e-9 * f).collect();
     for displacement in joints.into_iter().chain([spring]) {
-        let findings = diagnose(&[record(force(), displacement)], |_| ()).unwrap();
+        let findings = diagnose(&[plays::record("still", force(), displacement)], |_| ()).unwrap();
         assert_eq!(findings.verdict, Verdict::Clean, "{}", findings.summary);
         assert!(noted(&findings, "less noise than a ten-thousandth"));
     }
@@ -68,7 +57,7 @@ fn steps_of_a_converter_are_its_noise() {
         .iter()
         .map(|u| (u / step).round() * step)
         .collect();
-    let findings = diagnose(&[record(force(), read)], |_| ()).unwrap();
+    let findings = diagnose(&[plays::record("still", force(), read)], |_| ()).unwrap();
     assert_eq!(findings.verdict, Verdict::Clean, "{}", findings.summary);
     assert!(
         noted(&findings, "is read in steps of 50.0 nm"),
@@ -87,7 +76,7 @@ fn channels_that_do_not_go_together_are_no_clean_joint() {
         each.collect()
     };
     let (force, displacement) = (drawn(1000.0), drawn(1e-5));
-    let findings = diagnose(&[record(force, displacement)], |_| ()).unwrap();
+    let findings = diagnose(&[plays::record("still", force, displacement)], |_| ()).unwrap();
     assert_eq!(
         findings.verdict,
         Verdict::Unexplained,

@@ -37,13 +37,7 @@ fn record(seed: u64, jump: f64) -> Record {
     };
     let truth = plays::displacement(&force).into_iter();
     let displacement = truth.enumerate().map(reads).collect();
-    Record {
-        name: "slow".to_string(),
-        time: Some((0..count).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
+    plays::record("slow", force, displacement)
 }
 
 fn named(findings: &Findings) -> Vec<&str> {

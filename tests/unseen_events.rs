@@ -33,13 +33,7 @@ fn record_with(jump: f64, slips: usize) -> Record {
     };
     let truth = plays::displacement(&force).into_iter();
     let displacement = truth.enumerate().map(reads).collect();
-    Record {
-        name: "late".to_string(),
-        time: Some((0..count).map(|i| 0.01 * i as f64).collect()),
-        force,
-        displacement,
-        ..Record::default()
-    }
+    plays::record("late", force, displacement)
 }
 
 /// The same, a cycle before the end.

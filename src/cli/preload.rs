@@ -2,6 +2,7 @@
 
 use crate::read::Loaded;
 use crate::record::Measurement;
+use crate::record::cycles::rms;
 use crate::record::written::{percent, quantity};
 
 /// Share by which a preload differs or moves before it is said.
@@ -25,7 +26,6 @@ impl Preload<'_> {
     fn of<'a>(record: &'a str, channel: &[f64]) -> Preload<'a> {
         let mean_of = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         let mean = mean_of(channel);
-        let square = channel.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
         let parts = || channel.chunks(channel.len().div_ceil(PARTS));
         let left = parts().flat_map(|part| {
             let mean = mean_of(part);
@@ -34,7 +34,7 @@ impl Preload<'_> {
         Preload {
             record,
             mean,
-            scatter: (square / channel.len() as f64).sqrt(),
+            scatter: rms(channel),
             noise: (left.sum::<f64>() / channel.len() as f64).sqrt(),
             range: parts()
                 .map(mean_of)

@@ -80,7 +80,11 @@ pub(super) fn candidates(
             evidence: 0.5 * trial.evidence,
             probability,
             lambda_sep: None,
-            held_out_gain: Some(gain::ratio(bench, before, &trial.fit.predict(&bench.train)).0),
+            held_out_gain: Some(gain::ratio_alone(
+                bench,
+                before,
+                &trial.fit.predict(&bench.train),
+            )),
         })
         .collect();
     for cause in CATALOGUE {

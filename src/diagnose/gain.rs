@@ -13,10 +13,19 @@ pub fn ratio(
     before: &[Prediction],
     after: &[Prediction],
 ) -> (f64, Option<(f64, f64)>) {
-    let old = blocks(bench, before);
-    let new = blocks(bench, after);
-    let blocks: Vec<(f64, f64)> = old.iter().zip(&new).map(|(o, n)| (o.0, n.0)).collect();
+    let blocks = squares(bench, before, after);
     (of_squares(&blocks), interval(&blocks, of_squares))
+}
+
+/// The same without its interval.
+pub fn ratio_alone(bench: &Bench, before: &[Prediction], after: &[Prediction]) -> f64 {
+    of_squares(&squares(bench, before, after))
+}
+
+/// Squared errors (before, after) per block.
+fn squares(bench: &Bench, before: &[Prediction], after: &[Prediction]) -> Vec<(f64, f64)> {
+    let (old, new) = (blocks(bench, before), blocks(bench, after));
+    old.iter().zip(&new).map(|(o, n)| (o.0, n.0)).collect()
 }
 
 /// rms after over rms before, of squared errors (before, after) per block.

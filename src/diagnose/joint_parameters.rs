@@ -77,6 +77,12 @@ pub fn joint_parameters(
     (estimates, None)
 }
 
+/// True where the slip force has an upper bound: full slip was reached.
+pub fn bounds_slip_force(estimates: &[Estimate]) -> bool {
+    let mut slip_forces = estimates.iter().filter(|e| e.name == "slip_force");
+    slip_forces.any(|e| e.interval.is_some_and(|(_, upper)| upper.is_finite()))
+}
+
 /// The unit as it is shown; that of ϑ depends on χ.
 fn unit(told: &Estimated, found: &FamilyFit) -> String {
     match told.name {

@@ -3,7 +3,7 @@
 use super::bootstrap::interval;
 use super::gain::{energy, slope};
 use super::prepare::Bench;
-use crate::identify::{Form, Prediction};
+use crate::identify::Prediction;
 use crate::record::cycles::{Cycle, alike, cycles};
 
 /// One quantity of a level.
@@ -85,11 +85,7 @@ pub fn levels(
                 record: record.name.clone(),
                 amplitude: mean(&|c| c.amplitude),
                 mean: mean(&|c| c.mean),
-                unit: match form {
-                    Form::Play => "N",
-                    Form::Stop => "m",
-                }
-                .to_string(),
+                unit: form.input().1.to_string(),
                 rate: (timed && seconds > 0.0).then(|| seconds.recip()),
                 cycles: group.len(),
                 held_out: unseen(&group[0]),

@@ -47,7 +47,7 @@ use search::Found;
 use structure::structure;
 use unseen_events::investigated;
 
-use crate::identify::{Fit, Form, baseline, exported, refit, smoothed};
+use crate::identify::{Fit, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
 use crate::record::Record;
 use crate::record::noise::independence;
@@ -209,14 +209,11 @@ fn assemble(
     notes.extend(words::notes(records, bench));
     notes.extend(said);
     notes.extend(whereabouts::of_jumps(records, &whole.effects));
-    let unit = match bench.whole.operators.form {
-        Form::Play => "m",
-        Form::Stop => "N",
-    };
+    let (judged, unit) = bench.whole.operators.form.judged();
     let mut findings = Findings {
         verdict,
         summary: String::new(),
-        judged: if unit == "m" { "displacement" } else { "force" }.to_string(),
+        judged: judged.to_string(),
         unit: unit.to_string(),
         records: records
             .iter()
@@ -242,7 +239,10 @@ fn assemble(
                 _ => doubles,
             },
         },
-        not_identifiable: words::not_identifiable(records),
+        not_identifiable: words::not_identifiable(
+            records,
+            joint_parameters::bounds_slip_force(&joint_parameters),
+        ),
         next_experiment: None,
         joint_parameters,
         notes,

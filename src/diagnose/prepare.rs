@@ -13,7 +13,7 @@ use crate::record::mains::{beneath_mains, without_lines};
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::resolution::resolution;
-use crate::record::split::{Fitted, held_out_elsewhere};
+use crate::record::split::{Fitted, held_out, held_out_elsewhere};
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -125,14 +125,11 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
     }
     let resolution: Vec<f64> = records
         .iter()
-        .map(|record| match form {
-            Form::Play => resolution(&record.displacement),
-            Form::Stop => resolution(&record.force),
-        })
+        .map(|record| resolution(form.channels(record).1))
         .collect();
     let noise = noise(&whole, &first, &resolution);
     let held: Vec<Vec<bool>> = (0..whole.records.len())
-        .map(|k| held_out_elsewhere(whole.channels(k).0, Fitted::default()))
+        .map(|k| held_out(whole.channels(k).0))
         .collect();
     let scale = sizes(&whole, &first);
     let train = whole.clone();
@@ -224,7 +221,7 @@ impl Bench {
     pub fn weigh(&mut self, noise: Vec<Noise>) {
         for (k, noise) in noise.iter().enumerate() {
             let a = noise.autoregression;
-            let innovation = noise.deviation * (1.0 - a * a).sqrt();
+            let innovation = noise.innovation();
             for (problem, keep) in [(&mut self.whole, true), (&mut self.train, false)] {
                 let record = &mut problem.records[k];
                 record.autoregression = a;

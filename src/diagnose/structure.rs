@@ -87,9 +87,7 @@ const QUIET: f64 = 0.01;
 
 /// That part of the least innovation of any record: beside less scatter than that structure is nothing that matters.
 fn quiet_part(noise: &[Noise]) -> f64 {
-    let innovations = noise
-        .iter()
-        .map(|n| n.deviation.powi(2) * (1.0 - n.autoregression.powi(2)));
+    let innovations = noise.iter().map(|n| n.innovation().powi(2));
     let least = innovations.fold(f64::INFINITY, f64::min);
     if least.is_finite() {
         QUIET * least

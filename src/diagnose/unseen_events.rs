@@ -51,8 +51,13 @@ pub fn investigated(
 ) -> Investigation {
     let first = however_worn(records, timed, progress);
     let news = news(&first.bench, &first.found.best);
-    let worth_it = news.end || news.middle && first.is_told_by_all();
-    if !worth_it {
+    if !news.end && !news.middle {
+        return first;
+    }
+    let before = first.left_of_all(&first.bench);
+    let told_by_all =
+        !first.found.best.effects.is_empty() && before < scatter(first.bench.whole.rows() as f64);
+    if !news.end && !told_by_all {
         return first;
     }
     progress("once more: samples that were set aside show what no sample of the fit has shown");
@@ -60,10 +65,13 @@ pub fn investigated(
     bench.fit_also(news);
     let plain = baseline(&bench.train);
     let again = searched(bench, plain, timed, progress).sharpened();
+    let after = again.left_of_all(&first.bench);
+    // Every cause counts for what one must bring.
+    let counted = |i: &Investigation, left: f64| left + i.found.best.effects.len() as f64 * ALARM;
+    let explains = counted(&again, after) < LEFT * counted(&first, before);
     // The same causes with what happened in sight: their gain is measured where nothing does.
-    let placed = || first.is_told_by_all() && again.names() == first.names();
-    let whole = &first.bench;
-    match again.left_of_all(whole) < LEFT * first.left_of_all(whole) || placed() {
+    let places = told_by_all && again.names() == first.names();
+    match explains || places {
         true => again,
         false => first,
     }
@@ -71,21 +79,13 @@ pub fn investigated(
 
 impl Investigation {
     /// What the causes leave of all samples beyond noise, refitted to them, weighed alike: what happened in a few cycles is
-    /// known where little of it is left. Every cause counts for what one must bring.
+    /// known where little of it is left.
     fn left_of_all(&self, weighed: &Bench) -> f64 {
         let (whole, best) = (&weighed.whole, &self.found.best);
-        let refitted = refit(whole, best, best.effects.clone());
-        refitted.misfit - whole.rows() as f64 + best.effects.len() as f64 * ALARM
+        refit(whole, best, best.effects.clone()).misfit - whole.rows() as f64
     }
 
-    /// True where named causes leave noise alone when they are fitted to all samples.
-    fn is_told_by_all(&self) -> bool {
-        let (whole, best) = (&self.bench.whole, &self.found.best);
-        let rows = whole.rows() as f64;
-        !best.effects.is_empty()
-            && refit(whole, best, best.effects.clone()).misfit < rows + scatter(rows)
-    }
-
+    /// Names of its causes, in an order of their own.
     fn names(&self) -> Vec<&'static str> {
         let effects = self.found.best.effects.iter();
         let mut names: Vec<&str> = effects.map(|a| a.effect.name()).collect();

@@ -42,10 +42,7 @@ fn stretch(record: &Record, place: &Place) -> String {
 
 /// What the drive does in a part of each cycle.
 fn in_the_cycle(form: Form, drive: &[f64], (from, to): (usize, usize)) -> String {
-    let (name, unit) = match form {
-        Form::Play => ("force", "N"),
-        Form::Stop => ("displacement", "m"),
-    };
+    let (name, unit) = form.input();
     let (first, last) = (drive[from], drive[to.min(drive.len() - 1)]);
     let goes = if last > first { "rises" } else { "falls" };
     let [first, last] = [first, last].map(|value| quantity(value, unit));

@@ -1,7 +1,6 @@
 //! What a diagnosis says in words.
 
 use super::findings::{Findings, Verdict};
-use super::full_slip::full_slip;
 use super::prepare::{Bench, compliance_ratio};
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
@@ -112,10 +111,10 @@ fn partly((names, many): (&str, bool), ratio: f64, interval: Option<(f64, f64)>)
 }
 
 /// What these records cannot show.
-pub fn not_identifiable(records: &[Record]) -> Vec<String> {
+pub fn not_identifiable(records: &[Record], slip_force_is_bounded: bool) -> Vec<String> {
     let mut sentences = Vec::new();
     let deepest = records.iter().map(compliance_ratio).fold(1.0_f64, f64::max);
-    if deepest < 4.0 && full_slip(records).is_none() {
+    if deepest < 4.0 && !slip_force_is_bounded {
         sentences.push(format!(
             "Full slip was not approached (largest over smallest secant compliance {deepest:.1}): the slip force F_S and the ratio beta are not bounded from above by these records."
         ));
@@ -174,11 +173,9 @@ fn finer_than_read(record: &Record, k: usize, bench: &Bench) -> Option<String> {
     if !bench.is_finer_than_read(k) {
         return None;
     }
-    let (channel, unit, judged) = match bench.whole.operators.form {
-        Form::Play => ("displacement", "m", &record.displacement),
-        Form::Stop => ("force", "N", &record.force),
-    };
-    let why = match step(judged) {
+    let form = bench.whole.operators.form;
+    let (channel, unit) = form.judged();
+    let why = match step(form.channels(record).1) {
         Some(step) => format!("is read in steps of {}", quantity(step, unit)),
         None => "shows less noise than a ten-thousandth of itself".to_string(),
     };
@@ -199,10 +196,8 @@ pub fn goes_astray(follows: f64) -> String {
 
 /// How a record begins, where that is not with a virgin joint at the zero of what drives it.
 fn begins(record: &Record, beginning: &Beginning, form: Form) -> Option<String> {
-    let (drive, unit, channel) = match form {
-        Form::Play => ("force", "N", &record.force),
-        Form::Stop => ("displacement", "m", &record.displacement),
-    };
+    let (drive, unit) = form.input();
+    let (channel, _) = form.channels(record);
     let name = &record.name;
     let largest = channel.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let first = channel.first().copied().unwrap_or(0.0);

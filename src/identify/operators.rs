@@ -1,6 +1,7 @@
 //! The operator dictionary: a fixed grid of thresholds on which any Masing joint is linear.
 
 use crate::joint::effect::Place;
+use crate::record::Record;
 
 /// Which of the two dual forms a record is judged in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +13,30 @@ pub enum Form {
 }
 
 impl Form {
+    /// The input: its name and unit.
+    pub fn input(self) -> (&'static str, &'static str) {
+        match self {
+            Form::Play => ("force", "N"),
+            Form::Stop => ("displacement", "m"),
+        }
+    }
+
+    /// What is judged: its name and unit.
+    pub fn judged(self) -> (&'static str, &'static str) {
+        match self {
+            Form::Play => Form::Stop.input(),
+            Form::Stop => Form::Play.input(),
+        }
+    }
+
+    /// Input and judged channel of a record.
+    pub fn channels(self, record: &Record) -> (&[f64], &[f64]) {
+        match self {
+            Form::Play => (&record.force, &record.displacement),
+            Form::Stop => (&record.displacement, &record.force),
+        }
+    }
+
     /// The input's channel, as a place where effects act.
     pub fn input_place(self) -> Place {
         match self {

@@ -27,6 +27,11 @@ impl Noise {
         }
     }
 
+    /// Deviation of what is new in every sample, `σ √(1 − a²)`.
+    pub fn innovation(&self) -> f64 {
+        self.deviation * (1.0 - self.autoregression * self.autoregression).sqrt()
+    }
+
     /// The largest correlation of neighbours within two standard errors, `√((1 − a²)/n)` each (Bartlett).
     pub fn most_alike(&self) -> f64 {
         let a = self.autoregression;

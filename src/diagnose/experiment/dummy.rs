@@ -9,7 +9,7 @@ use crate::diagnose::trials::{ALARM, dispersion};
 use crate::identify::{Fit, Operators, Problem, baseline, refit};
 use crate::joint::effect::Acting;
 use crate::record::Record;
-use crate::record::noise::from_differences;
+use crate::record::noise::{Noise, from_differences};
 use crate::record::repeats::from_repeats;
 use crate::record::resolution::resolution;
 
@@ -66,11 +66,16 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
     let (input, judged) = problem.channels(0);
     let residual = &fit.residuals(&problem)[0];
     let noise = from_repeats(input, judged).unwrap_or_else(|| from_differences(residual));
-    let a = noise.autoregression;
-    let innovation = noise.deviation.max(resolution(judged)) * (1.0 - a * a).sqrt();
+    let noise = Noise {
+        deviation: noise.deviation.max(resolution(judged)),
+        ..noise
+    };
     let record = &mut problem.records[0];
-    record.autoregression = a;
-    record.weight.iter_mut().for_each(|w| *w = 1.0 / innovation);
+    record.autoregression = noise.autoregression;
+    record
+        .weight
+        .iter_mut()
+        .for_each(|w| *w = 1.0 / noise.innovation());
     let fit = baseline(&problem);
     (problem, fit)
 }
@@ -185,11 +190,9 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
         let (cause, fit) = &members[best];
         if cause.name() != named.effect.name() {
             let more = (fit.misfit - found.best.misfit) / dispersion(&bench.train, fit);
-            found
-                .evidence
-                .get_mut(place)
-                .into_iter()
-                .for_each(|e| *e -= more);
+            if let Some(evidence) = found.evidence.get_mut(place) {
+                *evidence -= more;
+            }
             found.best = fit.clone();
         }
         let rivals = left.iter().filter(|m| **m != best);

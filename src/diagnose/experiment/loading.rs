@@ -3,15 +3,13 @@
 use crate::diagnose::prepare::Bench;
 use crate::identify::Problem;
 use crate::record::cycles::cycles;
+use crate::record::mains::NOMINAL;
 
 /// Samples over all records that a look ahead marches through.
 const BUDGET: usize = 4000;
 
 /// Fewest samples per cycle that thinning leaves.
 const PER_CYCLE: usize = 40;
-
-/// Frequencies of the mains \[Hz\].
-const MAINS: [f64; 2] = [50.0, 60.0];
 
 /// Part of the thinned rate by which an alias has to stay away from rest and from half that rate, where one of a sine's
 /// two parts vanishes at every sample.
@@ -29,7 +27,7 @@ fn shows_mains(every: usize, sample: f64) -> usize {
             let twice = 2.0 * alias(f);
             (twice - twice.round()).abs() > 2.0 * APART
         };
-        MAINS.into_iter().all(apart)
+        NOMINAL.into_iter().all(apart)
     };
     match every {
         0 | 1 => every,

@@ -9,7 +9,7 @@ use super::separability::{Map, TOLD};
 use crate::causes::{Cause, Kind, find};
 use crate::diagnose::findings::Findings;
 use crate::diagnose::prepare::Bench;
-use crate::identify::{Fit, Form, Problem};
+use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
 
@@ -109,10 +109,7 @@ pub fn next(
             }
         }
     }
-    let (drive, unit) = match problem.operators.form {
-        Form::Play => ("force", "N"),
-        Form::Stop => ("displacement", "m"),
-    };
+    let (drive, unit) = problem.operators.form.input();
     let (before, after) = match &chosen {
         None => (None, None),
         Some(chosen) if named => refits(&design, chosen, known, whole),
