@@ -10,7 +10,7 @@ use crate::joint::passed::Passed;
 ///
 /// Where force drives, mass and joint are a system that rings, and the measured force drives it. A cell or a record
 /// too slow for that shows the inertia of the joint's forced motion alone: with a driven mass `F_meas = F + m_d Ü` is
-/// solved for the F that the joint bore in turns, Ü over [`SLOW`] samples.
+/// solved for the F that the joint bore in turns.
 pub struct FixtureInertia;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -40,28 +40,25 @@ static PARAMETERS: [Parameter; 2] = [
 /// right one does not, and no slope of the misfit leads from there to it.
 const STARTS: [f64; 2] = [0.002, 0.05];
 
+/// The same where nothing rings, and the slope at a small one leads on.
+const DRIVEN_STARTS: [f64; 3] = [1e-4, 0.002, 0.05];
+
 /// Noise of the acceleration over the acceleration itself, in rms, above which differences reach further.
 const NOISY: f64 = 0.1;
 
 /// Share of a record that a difference reaches over at most, to either side.
 const REACH: f64 = 0.125;
 
-/// Samples that a slow cell's acceleration reaches over at least: corners of the motion, which a model turns within
-/// a sample, are blurred by its amplifier.
-const SLOW: f64 = 4.0;
-
-/// Ü \[m/s²\] by differences over at least so many samples to either side, and so far that a measured displacement's noise
+/// Ü \[m/s²\] by differences over a sample to either side, or so far that a measured displacement's noise
 /// is small beside it, with the loss that they have at the motion's own frequency made good.
-fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
+fn acceleration(truth: &Trajectory) -> Vec<f64> {
     let (time, displacement) = (&truth.time, &truth.displacement);
     let count = time.len();
     let frequency = truth.frequency();
     if count < 3 || !frequency.is_normal() {
         return vec![0.0; count];
     }
-    let mean = displacement.iter().sum::<f64>() / count as f64;
-    let size = displacement.iter().map(|u| square(u - mean)).sum::<f64>() / count as f64;
-    let wanted = NOISY * square(frequency) * size.sqrt();
+    let wanted = NOISY * square(frequency) * variance(displacement).sqrt();
     // A second difference has six times the variance of its samples.
     let reach = (6.0_f64.sqrt() * noise(displacement) / wanted).sqrt();
     let reach = reach.min(REACH * (time[count - 1] - time[0]));
@@ -70,7 +67,7 @@ fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
-            let reach = reach.max(samples * (time[after] - time[before]) / (after - before) as f64);
+            let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
             // Constant near either end.
             let middle = time[sample]
                 .max(time[0] + reach)
@@ -85,6 +82,13 @@ fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
             (later - 2.0 * now + earlier) / square(reach * sin(half) / half)
         })
         .collect()
+}
+
+/// Mean square about the mean.
+fn variance(channel: &[f64]) -> f64 {
+    let count = channel.len().max(1) as f64;
+    let mean = channel.iter().sum::<f64>() / count;
+    channel.iter().map(|x| square(x - mean)).sum::<f64>() / count
 }
 
 /// Differences that are taken of a channel to leave its noise alone.
@@ -122,6 +126,9 @@ impl Effect for FixtureInertia {
     fn follows_motion(&self) -> bool {
         true
     }
+    fn driven(&self, values: &[f64]) -> Option<f64> {
+        Some(values[1])
+    }
     fn inertia(&self, values: &[f64]) -> Option<f64> {
         (values[1] == 0.0).then_some(values[0])
     }
@@ -131,9 +138,9 @@ impl Effect for FixtureInertia {
     }
     fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         let mut sum = vec![0.0; truth.time.len()];
-        for (mass, samples) in [(values[0], 1.0), (values[1], SLOW)] {
-            if mass != 0.0 {
-                let moved = acceleration(truth, samples).into_iter();
+        for mass in values {
+            if *mass != 0.0 {
+                let moved = acceleration(truth).into_iter();
                 sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
             }
         }
@@ -165,7 +172,7 @@ impl Cause for FixtureInertia {
         let rings = scale.ringing.iter().map(|w| scale.stiffness / square(*w));
         let shares = STARTS.map(|share| share * whole);
         let marched = shares.into_iter().chain(rings).map(|m| vec![m, 0.0]);
-        let driven = shares.into_iter().map(|m| vec![0.0, m]);
+        let driven = DRIVEN_STARTS.map(|share| vec![0.0, share * whole]);
         marched.chain(driven).collect()
     }
 }

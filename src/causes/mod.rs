@@ -27,7 +27,7 @@ mod velocity_weakening;
 mod viscous_damping;
 mod wear;
 
-use crate::joint::effect::{Effect, Trajectory};
+use crate::joint::effect::{Acting, Effect, Trajectory};
 
 /// Whether a cause belongs to the joint (exported) or to the measuring chain (removed).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +108,11 @@ pub trait Cause: Effect {
     /// Where a search starts: full sets of values with a small amplitude, one for each shape worth
     /// trying; the search scales the amplitude itself.
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// The law with refinements held elsewhere than at what is neutral, and starts beside these values: what a record
+    /// that ends early does not tell from it, and that bounds the values.
+    fn beside(&self, _values: &[f64]) -> Vec<Acting> {
+        Vec::new()
+    }
     /// Values from which refinements of the law that are neutral so far are fitted as well; the same
     /// values where there are none, or where a shape has them from its start.
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {

@@ -4,28 +4,72 @@ use super::wear::{
     ENERGY, PATH_MEMORY, PER_PATH, TAIL, follow_path, late, remaining, shapes, soon, worn,
 };
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces fall with the energy dissipated, `n = 1 − l (1 − exp(−E/E_0))`, or with the path of
 /// the slip, see [`worn`].
 pub struct PreloadLoss;
 
-static PARAMETERS: [Parameter; 4] = [
-    Parameter {
-        name: "loss",
-        symbol: "l",
-        unit: "1",
-        lower: 0.0,
-        upper: 0.98,
-        vanishes_at: Some(0.0),
-        neutral: None,
-        meaning: "share of the break-free forces that is lost in the end",
-    },
-    ENERGY,
-    TAIL,
-    PER_PATH,
-];
+const LOSS: Parameter = Parameter {
+    name: "loss",
+    symbol: "l",
+    unit: "1",
+    lower: 0.0,
+    upper: 0.98,
+    vanishes_at: Some(0.0),
+    neutral: None,
+    meaning: "share of the break-free forces that is lost in the end",
+};
+
+static PARAMETERS: [Parameter; 4] = [LOSS, ENERGY, TAIL, PER_PATH];
+
+/// The same law with a tail that stays as it is.
+///
+/// A record that ends while friction still falls tells how fast it falls and by how much it has fallen, and of what it
+/// will have lost in the end only what a tail lets it.
+struct Tailed {
+    parameters: [Parameter; 4],
+}
+
+impl Tailed {
+    const fn of(tail: f64) -> Tailed {
+        let held = Parameter {
+            neutral: Some(tail),
+            ..TAIL
+        };
+        Tailed {
+            parameters: [LOSS, ENERGY, held, PER_PATH],
+        }
+    }
+}
+
+static TAILED: [Tailed; 3] = [Tailed::of(0.5), Tailed::of(1.0), Tailed::of(2.0)];
+
+impl Effect for Tailed {
+    fn name(&self) -> &'static str {
+        PreloadLoss.name()
+    }
+    fn place(&self) -> Place {
+        PreloadLoss.place()
+    }
+    fn parameters(&self) -> &'static [Parameter] {
+        let same = TAILED.iter().find(|t| t.parameters == self.parameters);
+        same.map_or(&PARAMETERS, |t| &t.parameters)
+    }
+    fn memory(&self) -> usize {
+        PreloadLoss.memory()
+    }
+    fn lasting(&self) -> usize {
+        PreloadLoss.lasting()
+    }
+    fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
+        PreloadLoss.remember(values, now, memory);
+    }
+    fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
+        PreloadLoss.slip_limit(values, last, memory)
+    }
+}
 
 impl Effect for PreloadLoss {
     fn name(&self) -> &'static str {
@@ -75,6 +119,26 @@ impl Cause for PreloadLoss {
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         vec![values[0], values[1], 0.3, values[3]]
+    }
+    fn beside(&self, values: &[f64]) -> Vec<Acting> {
+        if TAIL.neutral != Some(values[2]) {
+            return Vec::new();
+        }
+        let held = |tailed: &'static Tailed| {
+            let tail = tailed.parameters[2].neutral.unwrap_or_default();
+            let larger = 1.0 + tail;
+            let energy = match ENERGY.neutral == Some(values[1]) {
+                true => values[1],
+                false => larger * values[1],
+            };
+            // As fast a fall at first.
+            let loss = (larger * values[0]).min(LOSS.upper);
+            Acting {
+                effect: tailed,
+                values: vec![loss, energy, tail, values[3] / larger],
+            }
+        };
+        TAILED.iter().map(held).collect()
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
         late(values, scale)

@@ -1,8 +1,6 @@
 //! `running_in`: friction, or stiffness, settles to its lasting value within the first cycles.
 
-use super::wear::{
-    ENERGY, PER_PATH, TAIL, at_once, follow_path, late, remaining, shapes, soon, worn,
-};
+use super::wear::{ENERGY, PER_PATH, TAIL, at_once, follow_path, remaining, shapes, soon, worn};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Response, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
@@ -118,7 +116,7 @@ impl Cause for RunningIn {
             happens: "Films and peaks of fresh surfaces wear off in the first cycles; contact spreads, friction grows, or the joint stiffens, and then stays.",
             sign: "The first loops are wider and softer than the later ones of the same load, or as wide and only softer; the change dies out and does not come back after a pause.",
             mistaken_for: &["preload_loss", "creep", "displacement_drift", "offset_step"],
-            separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays counts as running in, one that goes on falling as lost preload.",
+            separated_by: "Repeated equal blocks: loops grow narrower and stiffer here and wider and softer with lost preload; creep and drift move a loop and leave its area. Friction that falls within the first part of the work and then stays is called running in, and may be lost preload as well, as where parts embed; one that goes on falling is lost preload.",
             formula: "phi = phi_0 [1 - a r] or dU = du + dF/K_1 + c r dF, r = (1 + q w)^(-1/q), exp(-w) for q = 0, w = E/E_0 or s/L",
             source: "Growth of fretting friction to its steady value over the first cycles, with the dissipated energy (Fouvry; Schwingshackl et al. 2012) or the path of the slip as the measure of work.",
         }
@@ -134,7 +132,7 @@ impl Cause for RunningIn {
         runs_in && !at_once(values, scale)
     }
     fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
-        (values[0] < 0.0 && late(values, scale)).then_some("preload_loss")
+        (values[0] < 0.0 && !at_once(values, scale)).then_some("preload_loss")
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let shares = [0.01, 0.05, 0.2, 0.8];

@@ -8,9 +8,9 @@ use crate::record::cycles::span;
 use crate::record::mains::beneath_mains;
 use crate::record::resolution::resolution;
 
-/// Share of the judged channel's noise from which a drive's noise counts, by what the joint makes of it where that is
-/// most: a tenth of the variance.
-const COUNTS: f64 = 0.3;
+/// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
+/// by what the joint makes of it where that is most. A few alarms, of which a cause that answers to it takes a part.
+const COUNTS: f64 = 30.0;
 
 /// The records with a smooth driving channel where its noise counts: sliders that stick answer noise with their whole
 /// stiffness, and sliding ones are pushed back by it; taken for the joint's, both look like causes. A hum of the mains
@@ -30,7 +30,8 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             None => fastest(drive),
         };
         let answered = noise * steepest * span(judged) / span(drive);
-        if answered <= COUNTS * fastest(judged).max(resolution(judged)) {
+        let share = answered / fastest(judged).max(resolution(judged));
+        if share * share * judged.len() as f64 <= COUNTS {
             return record.clone();
         }
         let calm = calmed(drive, noise);

@@ -4,6 +4,7 @@ use crate::causes::{Scale, find};
 use crate::identify::interval::student_95;
 use crate::identify::linearised::STRETCHES_OF_FACTOR;
 use crate::identify::{Fit, Problem, refit, scatter};
+use crate::joint::effect::Acting;
 
 /// Values and deviations of one law, and how likely it is among the laws compared.
 struct Reading {
@@ -29,6 +30,9 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
     for place in 0..fit.effects.len() {
         if let Some((refined, fall)) = refined(problem, scale, fit, place) {
             readings.push(reading(problem, &refined, fall));
+        }
+        for (other, fall) in beside(problem, fit, place) {
+            readings.push(reading(problem, &other, fall));
         }
     }
     let likeliest = readings
@@ -85,11 +89,30 @@ fn refined(problem: &Problem, scale: &Scale, fit: &Fit, place: usize) -> Option<
     if freed == 0 {
         return None;
     }
+    let (other, fall) = instead(problem, fit, effects);
+    // A refit that ends worse has not found its way, and tells nothing.
+    (fall >= 0.0).then_some((other, fall - 2.0 * freed as f64))
+}
+
+/// Fits by laws that have a refinement of one effect elsewhere, with as many values, and by how much each lowers
+/// Akaike's criterion.
+fn beside(problem: &Problem, fit: &Fit, place: usize) -> Vec<(Fit, f64)> {
+    let acting = &fit.effects[place];
+    let laws = find(acting.effect.name()).map(|cause| cause.beside(&acting.values));
+    let refitted = |law: Acting| {
+        let mut effects = fit.effects.clone();
+        effects[place] = law;
+        instead(problem, fit, effects)
+    };
+    laws.unwrap_or_default().into_iter().map(refitted).collect()
+}
+
+/// The fit with other effects, and by how much its misfit is lower in the noise's own variance.
+fn instead(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> (Fit, f64) {
     let other = refit(problem, fit, effects);
     let spread = (other.misfit / problem.rows().max(1) as f64).max(1.0);
     let fall = (fit.misfit - other.misfit) / spread;
-    // A refit that ends worse has not found its way, and tells nothing.
-    (fall >= 0.0).then_some((other, fall - 2.0 * freed as f64))
+    (other, fall)
 }
 
 /// 95 % interval of a mixture of (likelihood, value, deviation), each a bell whose own 95 % half-width

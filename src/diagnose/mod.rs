@@ -199,6 +199,8 @@ fn assemble(
     let causes = catalogue::named(bench, &found, &whole);
     let (left, beyond_noise) = match verdict {
         Verdict::Clean => (0.0, 0.0),
+        // Nothing takes any of it away, however random it looks.
+        Verdict::Unexplained if !named => (1.0, 1.0),
         _ => (left, beyond_noise),
     };
     let candidates = catalogue::candidates(bench, &found, &before, beyond_noise);

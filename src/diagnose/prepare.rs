@@ -14,6 +14,7 @@ use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::resolution::resolution;
 use crate::record::split::{Fitted, held_out, held_out_elsewhere};
+use std::cmp::Ordering;
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -77,11 +78,38 @@ pub fn form(records: &[Record]) -> Form {
         force += noise(&record.force);
         displacement += noise(&record.displacement);
     }
+    let alike = (force / displacement).max(displacement / force) < ALIKE;
+    if alike && let Some(drives) = commanded(records) {
+        return drives;
+    }
     // Of two that show no noise at all neither is the more.
     if displacement >= force * (1.0 - f64::EPSILON.sqrt()) {
         Form::Play
     } else {
         Form::Stop
+    }
+}
+
+/// Ratio of the channels' fast noise up to which it does not tell which of them drives: of slow noise, which only
+/// cycles that repeat show whole, a third is fast.
+const ALIKE: f64 = 3.0;
+
+/// The form in which the channel that repeats by itself drives: what answers it repeats up to its noise alone.
+/// `None` where neither or both do.
+fn commanded(records: &[Record]) -> Option<Form> {
+    let repeats = |of: fn(&Record) -> (&[f64], &[f64])| {
+        let judged = records.iter().filter(|r| {
+            let (drive, response) = of(r);
+            from_repeats(drive, response).is_some()
+        });
+        judged.count()
+    };
+    let by_force = repeats(|r| (&r.force, &r.displacement));
+    let by_displacement = repeats(|r| (&r.displacement, &r.force));
+    match by_force.cmp(&by_displacement) {
+        Ordering::Greater => Some(Form::Play),
+        Ordering::Less => Some(Form::Stop),
+        Ordering::Equal => None,
     }
 }
 
@@ -154,10 +182,12 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
 }
 
 impl Bench {
-    /// Marches in so many parts of a step from now on where a mass moves with the joint.
-    pub fn haul_in(&mut self, parts: u32) {
-        self.whole.hauling = parts;
-        self.train.hauling = parts;
+    /// From now on a mass that moves with the joint is marched in so many parts of a step, or its share of the force is
+    /// taken off in so many turns.
+    pub fn haul(&mut self, (parts, turns): (u32, usize)) {
+        for problem in [&mut self.whole, &mut self.train] {
+            (problem.hauling, problem.turns) = (parts, turns);
+        }
     }
 
     /// Takes the records from now on for tests of a joint one after the other, which wears on from each to the next.

@@ -7,7 +7,6 @@ use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion};
 use crate::identify::{Fit, refit, smoothed};
-use crate::joint::effect::Acting;
 
 /// Most causes named together.
 pub(super) const MOST: usize = 3;
@@ -49,7 +48,8 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
 
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
 ///
-/// A mass that moves with the joint is marched in shorter steps from where it was found, if it explains more so.
+/// A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if it explains
+/// more so.
 pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
     let best = finely(bench, best);
@@ -76,22 +76,22 @@ pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     }
 }
 
-/// Parts of a step in which a mass that was found moves with the joint.
-const HAULING: u32 = 4;
+/// Parts of a step in which a mass that was found moves with the joint, and turns in which its share of a prescribed
+/// force is taken off.
+const HAULING: (u32, usize) = (4, 12);
 
-/// The set on a bench that marches in shorter steps, where it has a mass that they suit better.
+/// The set on a bench that marches in shorter steps or more turns, where it has a mass that they suit better.
 fn finely(bench: &mut Bench, best: Fit) -> Fit {
-    let hauls = |acting: &Acting| acting.effect.inertia(&acting.values).is_some();
-    if !best.effects.iter().any(hauls) {
+    if !best.effects.iter().any(|a| a.effect.follows_motion()) {
         return best;
     }
-    let coarse = bench.train.hauling;
-    bench.haul_in(HAULING);
+    let coarse = (bench.train.hauling, bench.train.turns);
+    bench.haul(HAULING);
     let finer = refit(&bench.train, &best, best.effects.clone());
     if finer.misfit < best.misfit {
         return finer;
     }
-    bench.haul_in(coarse);
+    bench.haul(coarse);
     best
 }
 

@@ -18,8 +18,8 @@ pub struct Structure {
     /// Correlation of neighbours in what is left within the bins, the largest of any record: noise
     /// that was whitened has none.
     pub correlation: f64,
-    /// Where noise was told by what is left, the largest correlation of samples further apart, of either sign and
-    /// beyond chance: what rings is no noise, and looks like it to its neighbours alone.
+    /// The largest correlation in it of samples further apart, of either sign and beyond chance: what rings is no noise,
+    /// and looks like it to its neighbours alone.
     pub ringing: f64,
     /// Bins that stand out most: record, first and last sample, deviation over its own error.
     pub places: Vec<Place>,
@@ -71,10 +71,8 @@ const LOUDEST: f64 = 25.0;
 pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
     let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
     let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
-    let told: Vec<bool> = noise.iter().map(|n| !n.repeated).collect();
     let quiet = quiet_part(noise);
-    let [taken, alike] =
-        [known, most].map(|a| whitened_by(problem, predictions, (&a, &told, quiet)));
+    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, (&a, quiet)));
     Structure {
         significance: taken.significance.min(alike.significance),
         ringing: taken.ringing.min(alike.ringing),
@@ -99,7 +97,7 @@ fn quiet_part(noise: &[Noise]) -> f64 {
 fn whitened_by(
     problem: &Problem,
     predictions: &[Prediction],
-    (alike, told, least): (&[f64], &[bool], f64),
+    (alike, least): (&[f64], f64),
 ) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
     let mut correlations: Vec<f64> = Vec::new();
@@ -114,11 +112,9 @@ fn whitened_by(
             before = record.counts(i).then_some(y - p);
         }
         correlations.push(correlation(&white, 1));
-        if told[k] {
-            let chance = CHANCE / (white.len().max(1) as f64).sqrt();
-            let lags = (2..=FARTHEST).map(|lag| correlation(&white, lag).abs() - chance);
-            ringing = lags.fold(ringing, f64::max);
-        }
+        let chance = CHANCE / (white.len().max(1) as f64).sqrt();
+        let lags = (2..=FARTHEST).map(|lag| correlation(&white, lag).abs() - chance);
+        ringing = lags.fold(ringing, f64::max);
         for (from, to, phases) in pieces(input) {
             let cuts = cuts(input, from, to);
             let mut own: Vec<Bin> = (0..phases)
@@ -204,7 +200,7 @@ fn quiet(bins: &[Bin], pooled: f64) -> (f64, f64) {
     (mean, bins.iter().map(square).sum::<f64>().sqrt())
 }
 
-/// Samples over which neighbours are looked for where noise was told by a residual.
+/// Samples over which neighbours are looked for.
 const FARTHEST: usize = 8;
 
 /// Standard errors of a correlation that chance may give the largest of them.

@@ -33,6 +33,7 @@ pub mod smoothing;
 mod strides;
 pub mod summed;
 pub mod table;
+mod turns;
 mod undone;
 mod walk;
 pub mod weighing;

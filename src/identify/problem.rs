@@ -4,6 +4,7 @@ use super::beginning::Beginning;
 use super::march::{Cells, March, Step, Wear, added};
 use super::operators::{Form, Operators};
 use super::prepared::Prepared;
+use super::turns::{Resonance, Turns};
 use super::undone::{corrected, true_input};
 use super::walk::walk;
 use super::weighing::whiten;
@@ -21,6 +22,8 @@ pub struct Problem {
     pub records: Vec<Prepared>,
     /// Parts of every step in which a mass moves with the joint.
     pub hauling: u32,
+    /// Passes at most through a record whose input is corrected by what the march gives.
+    pub turns: usize,
     /// True where the records are tests of a joint one after the other, which wears on from each to the next; false
     /// where it was made new between them.
     pub wears_on: bool,
@@ -73,6 +76,7 @@ impl Problem {
             operators: Operators::grid(form, range),
             records,
             hauling: HAULING,
+            turns: TURNS,
             wears_on: false,
         }
     }
@@ -143,10 +147,10 @@ impl Problem {
             &correcting,
             &mut truth,
         );
-        let rounds = if in_turns.is_empty() { 1 } else { ROUNDS };
-        let mut worn = Wear::default();
-        let as_read = (rounds > 1).then(|| (input.clone(), between.clone()));
-        for round in 0..rounds {
+        let mut worn;
+        let mut turns = Turns::new(if in_turns.is_empty() { 1 } else { self.turns });
+        let as_read = (!turns.end()).then(|| (input.clone(), between.clone()));
+        loop {
             let mut march = March::new(
                 &self.operators,
                 coefficients,
@@ -159,17 +163,21 @@ impl Problem {
                     truth.force[i] = step.force;
                     truth.displacement[i] = step.displacement;
                 }
-                if round + 1 == rounds {
+                if turns.end() {
                     each(i, march, step);
                 }
             });
             worn = march.wear();
-            if round + 1 < rounds
-                && let Some(added) = added(&in_turns, input_place, &truth)
-                && let Some((read, turned)) = &as_read
-            {
-                (input, between) = corrected(&record.time, (read, turned), &added);
-            }
+            let (false, Some((read, turned))) = (turns.end(), &as_read) else {
+                break;
+            };
+            let Some(added) = added(&in_turns, input_place, &truth) else {
+                break;
+            };
+            let masses = in_turns.iter().filter_map(|a| a.effect.driven(&a.values));
+            let resonance = Resonance::of(masses.sum(), &truth);
+            let correction = turns.take(&added, resonance);
+            (input, between) = corrected(&record.time, (read, turned), correction);
         }
         let judged = self.judged(&truth, effects);
         (Prediction { judged, truth }, worn)
@@ -300,8 +308,8 @@ impl Problem {
 /// Parts of a step in which a mass is looked for: in whole steps it answers too early what shows in single samples.
 const HAULING: u32 = 2;
 
-/// Passes through a record whose input is corrected by what the march gives.
-const ROUNDS: usize = 3;
+/// Passes through a record whose input is corrected by what the march gives, in which a cause is looked for.
+const TURNS: usize = 3;
 
 #[cfg(test)]
 mod tests {

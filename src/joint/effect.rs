@@ -213,6 +213,10 @@ pub trait Effect: Send + Sync {
     fn inertia(&self, _values: &[f64]) -> Option<f64> {
         None
     }
+    /// [`Place::ForceChannel`]: such a mass that follows the joint's motion and rings with nothing \[kg\].
+    fn driven(&self, _values: &[f64]) -> Option<f64> {
+        None
+    }
     /// [`Place::ForceChannel`]: true where what it adds follows the motion, which a march has to give first, and not
     /// the force alone.
     fn follows_motion(&self) -> bool {

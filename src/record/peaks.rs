@@ -97,7 +97,7 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
         }
     }
     for turn in turning_points(channel, BAND) {
-        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] {
+        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] || !rounds(channel, turn) {
             continue;
         }
         let rise = 0.5 * (channel[turn + 1] - channel[turn - 1]);
@@ -109,6 +109,16 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
         }
     }
     found.in_order()
+}
+
+/// Share of the bend at a turning point that a smooth turn has next to it: a sine sampled five times a cycle has 0.31.
+const ROUND: f64 = 0.25;
+
+/// True where a channel turns smoothly: neither jumps there nor comes to rest, whose parabola would reach beyond it.
+fn rounds(channel: &[f64], turn: usize) -> bool {
+    let there = bend(channel, turn);
+    let goes_on = |i: usize| bend(channel, i) * there >= ROUND * there * there;
+    (turn < 2 || goes_on(turn - 1)) && (turn + 2 >= channel.len() || goes_on(turn + 1))
 }
 
 /// True for a share of a step that lies between its samples.
@@ -174,6 +184,17 @@ mod tests {
         let time: Vec<f64> = (0..600).map(|i| 0.0167 * f64::from(i)).collect();
         let channel = time.iter().map(|t| wave(*t)).collect();
         (time, channel)
+    }
+
+    /// What rests is driven no farther than where it rests, however it came there.
+    #[test]
+    fn a_jump_and_a_stop_have_no_tip_beyond_them() {
+        let jump = |t: f64| if t < 5.0 { 1.0 } else { 0.0 };
+        let stop = |t: f64| (0.4 * t.min(2.5 * std::f64::consts::FRAC_PI_2)).sin();
+        for wave in [&jump as &dyn Fn(f64) -> f64, &stop] {
+            let (time, channel) = sampled(wave);
+            assert_eq!(between(&time, &channel).peaks, []);
+        }
     }
 
     #[test]
