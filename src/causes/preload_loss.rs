@@ -177,4 +177,32 @@ mod tests {
         assert!((at([0.3, ENDLESS, 0.0, 0.1]) - after(0.7)).abs() < 1e-11);
         assert!((at([0.3, ENDLESS, 1.0, 0.1]) - (1.0 - 0.3 * (1.0 - 1.0 / 1.7))).abs() < 1e-11);
     }
+
+    #[test]
+    fn tails_that_stay_begin_with_as_fast_a_fall() {
+        for (values, by_path) in [
+            ([0.2, 8.0, 0.0, 0.0], false),
+            ([0.2, ENDLESS, 0.0, 0.1], true),
+        ] {
+            let beside = PreloadLoss.beside(&values);
+            assert_eq!(beside.len(), 3);
+            for law in beside {
+                let (effect, tailed) = (law.effect, &law.values);
+                assert_eq!(effect.name(), "preload_loss");
+                assert_eq!(effect.parameters()[2].neutral, Some(tailed[2]));
+                let last = Situation {
+                    dissipation: if by_path { 0.0 } else { 1e-3 },
+                    ..Situation::default()
+                };
+                let memory = [if by_path { 1e-3 } else { 0.0 }, 0.0];
+                let fallen = |effect: &dyn Effect, values: &[f64]| {
+                    1.0 - effect.slip_limit(values, &last, &memory).positive
+                };
+                let (with, without) = (fallen(effect, tailed), fallen(&PreloadLoss, &values));
+                assert!(without > 0.0 && (with / without - 1.0).abs() < 1e-3);
+            }
+        }
+        // A tail that the data asked for is fitted, and has its own interval.
+        assert_eq!(PreloadLoss.beside(&[0.2, 8.0, 0.7, 0.0]).len(), 0);
+    }
 }

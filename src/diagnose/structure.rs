@@ -392,4 +392,31 @@ mod tests {
             assert!(seen(alike, 2.0), "{alike}");
         }
     }
+
+    /// A tone of a quarter of the sampling rate, to which neighbours say nothing, beside noise that repeated cycles told.
+    #[test]
+    fn a_tone_beside_known_noise_is_seen() {
+        let mut random = ChaCha8Rng::seed_from_u64(20261124);
+        let nothing = Prediction {
+            judged: vec![0.0; 1200],
+            ..Prediction::default()
+        };
+        let mut ringing = |loud: f64| {
+            let (mut record, _) = left(0.0, 0.0, &mut random);
+            for (i, value) in record.displacement.iter_mut().enumerate() {
+                *value += loud * (std::f64::consts::FRAC_PI_2 * i as f64).sin();
+            }
+            let known = Noise {
+                deviation: 1.0,
+                autoregression: 0.0,
+                samples: 1200,
+                repeated: true,
+            };
+            let problem = Problem::new(Form::Play, &[record]);
+            structure(&problem, std::slice::from_ref(&nothing), &[known])
+        };
+        assert!(!ringing(0.0).is_seen());
+        let toned = ringing(3.0);
+        assert!(toned.correlation < RANDOM && toned.is_seen(), "{toned:?}");
+    }
 }
