@@ -10,7 +10,7 @@ use crate::joint::passed::Passed;
 ///
 /// Where force drives, mass and joint are a system that rings, and the measured force drives it. A cell or a record
 /// too slow for that shows the inertia of the joint's forced motion alone: with a driven mass `F_meas = F + m_d Ü` is
-/// solved for the F that the joint bore in turns.
+/// solved for the F that the joint bore in turns. Where displacement drives, Ü reaches over [`SLOW`] samples.
 pub struct FixtureInertia;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -49,9 +49,13 @@ const NOISY: f64 = 0.1;
 /// Share of a record that a difference reaches over at most, to either side.
 const REACH: f64 = 0.125;
 
-/// Ü \[m/s²\] by differences over a sample to either side, or so far that a measured displacement's noise
+/// Samples that a slow cell's acceleration reaches over where displacement drives: corners of the motion are blurred by
+/// its amplifier.
+const SLOW: f64 = 4.0;
+
+/// Ü \[m/s²\] by differences over at least so many samples to either side, and so far that a measured displacement's noise
 /// is small beside it, with the loss that they have at the motion's own frequency made good.
-fn acceleration(truth: &Trajectory) -> Vec<f64> {
+fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
     let (time, displacement) = (&truth.time, &truth.displacement);
     let count = time.len();
     let frequency = truth.frequency();
@@ -67,7 +71,7 @@ fn acceleration(truth: &Trajectory) -> Vec<f64> {
     (0..count)
         .map(|sample| {
             let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
-            let reach = reach.max((time[after] - time[before]) / (after - before) as f64);
+            let reach = reach.max(samples * (time[after] - time[before]) / (after - before) as f64);
             // Constant near either end.
             let middle = time[sample]
                 .max(time[0] + reach)
@@ -137,15 +141,21 @@ impl Effect for FixtureInertia {
         true
     }
     fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
-        let mut sum = vec![0.0; truth.time.len()];
-        for mass in values {
-            if *mass != 0.0 {
-                let moved = acceleration(truth).into_iter();
-                sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
-            }
-        }
-        sum
+        inertia([(values[0], 1.0), (values[1], SLOW)], truth)
     }
+    fn in_turns(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        inertia([(values[0], 1.0), (values[1], 1.0)], truth)
+    }
+}
+
+/// Inertia of masses \[kg\] whose acceleration reaches over so many samples \[N\].
+fn inertia(masses: [(f64, f64); 2], truth: &Trajectory) -> Vec<f64> {
+    let mut sum = vec![0.0; truth.time.len()];
+    for (mass, samples) in masses.into_iter().filter(|(mass, _)| *mass != 0.0) {
+        let moved = acceleration(truth, samples).into_iter();
+        sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
+    }
+    sum
 }
 
 impl Cause for FixtureInertia {

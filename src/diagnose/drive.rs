@@ -9,8 +9,9 @@ use crate::record::mains::beneath_mains;
 use crate::record::resolution::resolution;
 
 /// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
-/// by what the joint makes of it where that is most. A few alarms, of which a cause that answers to it takes a part.
-const COUNTS: f64 = 30.0;
+/// by what the joint makes of it where that is most. A mass that answers to it was seen to take a fifth of that, and to
+/// pass for a cause at a few alarms; to smooth costs something as well, where a drive turns sharply.
+const COUNTS: f64 = 300.0;
 
 /// The records with a smooth driving channel where its noise counts: sliders that stick answer noise with their whole
 /// stiffness, and sliding ones are pushed back by it; taken for the joint's, both look like causes. A hum of the mains

@@ -86,7 +86,7 @@ const FIRST: usize = 2;
 
 /// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more.
 pub(super) const SHAPES: usize = 2;
-const OF_A_MASS: usize = 6;
+const OF_A_MASS: usize = 8;
 
 /// Share of the highest score below which no refit is tried: the score is the fall to first order.
 const WORTH: f64 = 0.03;

@@ -171,9 +171,11 @@ impl Problem {
             let (false, Some((read, turned))) = (turns.end(), &as_read) else {
                 break;
             };
-            let Some(added) = added(&in_turns, input_place, &truth) else {
-                break;
-            };
+            let mut added = vec![0.0; record.time.len()];
+            for acting in &in_turns {
+                let one = acting.effect.in_turns(&acting.values, &truth);
+                added.iter_mut().zip(&one).for_each(|(sum, a)| *sum += a);
+            }
             let masses = in_turns.iter().filter_map(|a| a.effect.driven(&a.values));
             let resonance = Resonance::of(masses.sum(), &truth);
             let correction = turns.take(&added, resonance);

@@ -213,6 +213,10 @@ pub trait Effect: Send + Sync {
     fn inertia(&self, _values: &[f64]) -> Option<f64> {
         None
     }
+    /// [`Place::ForceChannel`]: what it adds to the force on a joint whose motion a march gave, free of noise.
+    fn in_turns(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
+        self.channel(values, Place::ForceChannel, truth)
+    }
     /// [`Place::ForceChannel`]: such a mass that follows the joint's motion and rings with nothing \[kg\].
     fn driven(&self, _values: &[f64]) -> Option<f64> {
         None

@@ -97,7 +97,7 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
         }
     }
     for turn in turning_points(channel, BAND) {
-        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] || !rounds(channel, turn) {
+        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] || rests(channel, turn) {
             continue;
         }
         let rise = 0.5 * (channel[turn + 1] - channel[turn - 1]);
@@ -111,14 +111,18 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
     found.in_order()
 }
 
-/// Share of the bend at a turning point that a smooth turn has next to it: a sine sampled five times a cycle has 0.31.
-const ROUND: f64 = 0.25;
+/// Share of the step to a turning point below which the next two are none: of a parabola one of them is half as large.
+const RESTS: f64 = 0.25;
 
-/// True where a channel turns smoothly: neither jumps there nor comes to rest, whose parabola would reach beyond it.
-fn rounds(channel: &[f64], turn: usize) -> bool {
-    let there = bend(channel, turn);
-    let goes_on = |i: usize| bend(channel, i) * there >= ROUND * there * there;
-    (turn < 2 || goes_on(turn - 1)) && (turn + 2 >= channel.len() || goes_on(turn + 1))
+/// True where a channel rests before a turning point or behind it, after a jump or slowly: the parabola through what is
+/// there reaches beyond what the channel ever was.
+fn rests(channel: &[f64], turn: usize) -> bool {
+    let step = |i: usize| (channel[i + 1] - channel[i]).abs();
+    let none =
+        |one: usize, other: usize, beside: usize| step(one).max(step(other)) < RESTS * step(beside);
+    let behind = turn + 2 < channel.len() && none(turn, turn + 1, turn - 1);
+    let before = turn >= 2 && none(turn - 1, turn - 2, turn);
+    behind || before
 }
 
 /// True for a share of a step that lies between its samples.
