@@ -1,7 +1,7 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Trajectory, variance};
 use crate::joint::elementary::{sin, square};
 use crate::joint::parameters::Parameter;
 use crate::joint::passed::Passed;
@@ -86,13 +86,6 @@ fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
             (later - 2.0 * now + earlier) / square(reach * sin(half) / half)
         })
         .collect()
-}
-
-/// Mean square about the mean.
-fn variance(channel: &[f64]) -> f64 {
-    let count = channel.len().max(1) as f64;
-    let mean = channel.iter().sum::<f64>() / count;
-    channel.iter().map(|x| square(x - mean)).sum::<f64>() / count
 }
 
 /// Differences that are taken of a channel to leave its noise alone.

@@ -1,6 +1,6 @@
 //! Passes through a record whose input is corrected by what the march before gave.
 
-use crate::joint::effect::Trajectory;
+use crate::joint::effect::{Trajectory, variance};
 use nalgebra::Complex;
 
 /// Change of the correction from pass to pass, as a share of the correction, below which it has settled.
@@ -109,13 +109,6 @@ impl Resonance {
     }
 }
 
-/// Mean square about the mean.
-fn variance(channel: &[f64]) -> f64 {
-    let count = channel.len().max(1) as f64;
-    let mean = channel.iter().sum::<f64>() / count;
-    channel.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,7 +124,7 @@ mod tests {
         (passes, correction)
     }
 
-    /// A load on a mass that it drives through a joint of 1/60 m/N, seen as the joint's force alone again.
+    /// What a spring bore, of the force that moved a mass as well.
     #[test]
     fn the_inverse_leaves_what_the_joint_bore() {
         let time: Vec<f64> = (0..2000).map(f64::from).collect();
@@ -145,7 +138,7 @@ mod tests {
                 .map(|i| bore[i] + ratio * acceleration(i.clamp(1, 1998)))
                 .collect();
             let found = Resonance { ratio }.answer(&lacks);
-            // Far below the resonance; the damping takes a fifth.
+            // Below the resonance the damping takes a fifth; untouched, the heaviest mass would take another.
             let off = |i: usize| (found[i] * (1.0 + DAMPED * DAMPED) - bore[i]).abs();
             let worst = (500..1500).map(off).fold(0.0, f64::max);
             assert!(worst < 0.1, "{ratio}: {worst}");
