@@ -1,7 +1,7 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Trajectory, variance};
+use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{sin, square};
 use crate::joint::parameters::Parameter;
 use crate::joint::passed::Passed;
@@ -62,7 +62,9 @@ fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
     if count < 3 || !frequency.is_normal() {
         return vec![0.0; count];
     }
-    let wanted = NOISY * square(frequency) * variance(displacement).sqrt();
+    let mean = displacement.iter().sum::<f64>() / count as f64;
+    let size = displacement.iter().map(|u| square(u - mean)).sum::<f64>() / count as f64;
+    let wanted = NOISY * square(frequency) * size.sqrt();
     // A second difference has six times the variance of its samples.
     let reach = (6.0_f64.sqrt() * noise(displacement) / wanted).sqrt();
     let reach = reach.min(REACH * (time[count - 1] - time[0]));

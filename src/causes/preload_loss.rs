@@ -29,22 +29,28 @@ static PARAMETERS: [Parameter; 4] = [LOSS, ENERGY, TAIL, PER_PATH];
 /// A record that ends while friction still falls tells how fast it falls and by how much it has fallen, and of what it
 /// will have lost in the end only what a tail lets it.
 struct Tailed {
-    parameters: [Parameter; 4],
+    parameters: &'static [Parameter; 4],
 }
 
-impl Tailed {
-    const fn of(tail: f64) -> Tailed {
-        let held = Parameter {
-            neutral: Some(tail),
-            ..TAIL
-        };
-        Tailed {
-            parameters: [LOSS, ENERGY, held, PER_PATH],
-        }
-    }
+const fn held(tail: f64) -> [Parameter; 4] {
+    let held = Parameter {
+        neutral: Some(tail),
+        ..TAIL
+    };
+    [LOSS, ENERGY, held, PER_PATH]
 }
 
-static TAILED: [Tailed; 3] = [Tailed::of(0.5), Tailed::of(1.0), Tailed::of(2.0)];
+static TAILED: [Tailed; 3] = [
+    Tailed {
+        parameters: &held(0.5),
+    },
+    Tailed {
+        parameters: &held(1.0),
+    },
+    Tailed {
+        parameters: &held(2.0),
+    },
+];
 
 impl Effect for Tailed {
     fn name(&self) -> &'static str {
@@ -54,8 +60,7 @@ impl Effect for Tailed {
         PreloadLoss.place()
     }
     fn parameters(&self) -> &'static [Parameter] {
-        let same = TAILED.iter().find(|t| t.parameters == self.parameters);
-        same.map_or(&PARAMETERS, |t| &t.parameters)
+        self.parameters
     }
     fn memory(&self) -> usize {
         PreloadLoss.memory()

@@ -97,16 +97,14 @@ const ALIKE: f64 = 3.0;
 /// The form in which the channel that repeats by itself drives: what answers it repeats up to its noise alone.
 /// `None` where neither or both do.
 fn commanded(records: &[Record]) -> Option<Form> {
-    let repeats = |of: fn(&Record) -> (&[f64], &[f64])| {
-        let judged = records.iter().filter(|r| {
-            let (drive, response) = of(r);
+    let repeats = |form: Form| {
+        let judged = records.iter().filter(|record| {
+            let (drive, response) = form.channels(record);
             from_repeats(drive, response).is_some()
         });
         judged.count()
     };
-    let by_force = repeats(|r| (&r.force, &r.displacement));
-    let by_displacement = repeats(|r| (&r.displacement, &r.force));
-    match by_force.cmp(&by_displacement) {
+    match repeats(Form::Play).cmp(&repeats(Form::Stop)) {
         Ordering::Greater => Some(Form::Play),
         Ordering::Less => Some(Form::Stop),
         Ordering::Equal => None,

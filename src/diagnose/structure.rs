@@ -310,6 +310,16 @@ mod tests {
     use rand::{Rng, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
+    /// White noise of unit variance that so many repeated samples told.
+    fn known(samples: usize) -> Noise {
+        Noise {
+            deviation: 1.0,
+            autoregression: 0.0,
+            samples,
+            repeated: true,
+        }
+    }
+
     #[test]
     fn noise_leaves_a_share_beyond_its_standard_error_once_in_six_times() {
         let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
@@ -323,12 +333,7 @@ mod tests {
             time: Some(time),
             ..Record::default()
         };
-        let white = Noise {
-            deviation: 1.0,
-            autoregression: 0.0,
-            samples: 1_000_000,
-            repeated: true,
-        };
+        let white = known(1_000_000);
         let nothing = Prediction {
             judged: vec![0.0; record.displacement.len()],
             ..Prediction::default()
@@ -406,14 +411,8 @@ mod tests {
             for (i, value) in record.displacement.iter_mut().enumerate() {
                 *value += loud * (std::f64::consts::FRAC_PI_2 * i as f64).sin();
             }
-            let known = Noise {
-                deviation: 1.0,
-                autoregression: 0.0,
-                samples: 1200,
-                repeated: true,
-            };
             let problem = Problem::new(Form::Play, &[record]);
-            structure(&problem, std::slice::from_ref(&nothing), &[known])
+            structure(&problem, std::slice::from_ref(&nothing), &[known(1200)])
         };
         assert!(!ringing(0.0).is_seen());
         let toned = ringing(3.0);

@@ -1,6 +1,7 @@
 //! Passes through a record whose input is corrected by what the march before gave.
 
-use crate::joint::effect::{Trajectory, variance};
+use crate::joint::effect::Trajectory;
+use crate::record::cycles::rms;
 use nalgebra::Complex;
 
 /// Change of the correction from pass to pass, as a share of the correction, below which it has settled.
@@ -72,7 +73,7 @@ impl Resonance {
         if mass == 0.0 || samples < 2 {
             return Resonance::default();
         }
-        let compliance = (variance(&truth.displacement) / variance(&truth.force)).sqrt();
+        let compliance = rms(&truth.displacement) / rms(&truth.force);
         let step = (truth.time[samples - 1] - truth.time[0]) / (samples - 1) as f64;
         let ratio = mass * compliance / (step * step);
         Resonance {

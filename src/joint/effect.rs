@@ -138,13 +138,6 @@ impl Trajectory {
     }
 }
 
-/// Mean square of a channel about its mean, in the square of its unit.
-pub(crate) fn variance(channel: &[f64]) -> f64 {
-    let count = channel.len().max(1) as f64;
-    let mean = channel.iter().sum::<f64>() / count;
-    channel.iter().map(|x| square(x - mean)).sum::<f64>() / count
-}
-
 /// One effect: a law at one place, or of two forms at two. Values of its parameters come as a slice in the order of
 /// [`Effect::parameters`]; its history lives in a slice of [`Effect::memory`] numbers that the
 /// simulation owns, so that saving and restoring a simulation needs nothing from the effect.
