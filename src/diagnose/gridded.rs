@@ -1,12 +1,40 @@
 //! What a cause brings on a finer grid: a coarse one is wrong by a little everywhere, and a cause may mend that.
 
+use super::prepare::Bench;
 use super::trials::{ALARM, alarm, dispersion};
 use crate::identify::finer::finer;
-use crate::identify::{Fit, Problem, refit};
+use crate::identify::{Fit, Problem, baseline, refit};
 
 /// Evidence, over [`ALARM`], up to which a cause is looked at on a grid of half the spacing: the grid is chosen so
 /// that what it is wrong by is far below the noise, and that makes no more.
 const LITTLE: f64 = 10.0;
+
+/// The baseline on a grid adapted to it, as long as that lowers the misfit.
+pub(super) fn fitted(mut problem: Problem) -> (Problem, Fit) {
+    let mut fit = baseline(&problem);
+    for _ in 0..3 {
+        let mut finer = problem.clone();
+        finer.operators = problem.operators.adapted(&fit.coefficients);
+        let refitted = baseline(&finer);
+        if refitted.misfit >= fit.misfit {
+            break;
+        }
+        (problem, fit) = (finer, refitted);
+    }
+    (problem, fit)
+}
+
+/// Halves the spacing of the grid where that takes from the baseline what is evident: a joint that slips all at once has
+/// corners which no coarse one has.
+pub(super) fn resolve(bench: &mut Bench) {
+    let coarse = baseline(&bench.train);
+    let (fine, _) = finer(&bench.train, &coarse.coefficients);
+    let refitted = baseline(&fine);
+    if coarse.misfit - refitted.misfit > ALARM * dispersion(&fine, &refitted) {
+        bench.whole.operators.clone_from(&fine.operators);
+        bench.train = fine;
+    }
+}
 
 /// True where a set's evidence against the current one stays as both have a grid of half the spacing.
 pub fn stays_on_a_finer_grid(
@@ -36,7 +64,7 @@ pub fn stays_on_a_finer_grid(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Form, baseline};
+    use crate::identify::Form;
     use crate::joint::effect::{Acting, Effect, Place, Trajectory};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;

@@ -68,6 +68,7 @@ fn made_anew(records: &[Record], timed: bool, progress: &mut impl FnMut(&str)) -
         let mut both = i.beginnings().zip(&at_zero);
         match i.is_virgin() {
             true => at_zero.contains(&false),
+            false if i.goes_on() => false,
             false if i.beginnings().all(|b| b.turned.is_empty()) => false,
             false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
         }
@@ -95,8 +96,9 @@ fn made_anew(records: &[Record], timed: bool, progress: &mut impl FnMut(&str)) -
         least.map_or(0, |(i, _)| i)
     };
     // Where a past is the rule and leaves noise alone, nobody asks what a virgin joint would need.
-    let past_is_rule =
-        at_zero.contains(&false) && others.first().is_some_and(|o| has_past(o, &at_zero));
+    let past_is_rule = others.first().is_some_and(|o| {
+        o.iter().any(|b| b.goes_on) || at_zero.contains(&false) && has_past(o, &at_zero)
+    });
     let mut all = Vec::new();
     if past_is_rule {
         let begun = prepare(form, records, &others.remove(0));
@@ -112,11 +114,16 @@ fn made_anew(records: &[Record], timed: bool, progress: &mut impl FnMut(&str)) -
             all.push(begun_and_searched(bench, timed, progress));
         }
     }
-    all.push(searched(bench, first, timed, progress));
+    let gone_on = all.first().is_some_and(Investigation::goes_on);
+    if !gone_on || all[0].may_be_beaten_by(&bench) {
+        all.push(searched(bench, first, timed, progress));
+    }
     for other in others {
         let bench = prepare(form, records, &other);
         let so_far = &all[leading(&all)];
-        if misled(so_far) || so_far.may_be_beaten_by(&bench) {
+        // A past of some records against the rule may do the work of a cause in all of them.
+        let by_rule = || bench.train.wears_on && against_rule(so_far);
+        if misled(so_far) || by_rule() || so_far.may_be_beaten_by(&bench) {
             progress(ONCE_MORE);
             all.push(begun_and_searched(bench, timed, progress));
         }
@@ -186,6 +193,11 @@ impl Investigation {
         dispersion(&self.bench.train, &self.found.best)
     }
 
+    /// True where the joint goes on from record to record.
+    fn goes_on(&self) -> bool {
+        self.beginnings().any(|b| b.goes_on)
+    }
+
     fn is_virgin(&self) -> bool {
         self.beginnings().all(Beginning::is_virgin)
     }
@@ -242,7 +254,8 @@ impl Investigation {
         let best = &self.found.best;
         let lasts = |a: &Acting| a.effect.lasting() > 0;
         let wears = best.effects.iter().any(lasts);
-        if train.records.len() < 2 || !(wears || leaves_structure(train, best)) {
+        let asked = train.records.len() > 1 && !train.wears_on;
+        if !asked || !(wears || leaves_structure(train, best)) {
             return false;
         }
         let mut on = train.clone();
@@ -291,7 +304,7 @@ impl Investigation {
     fn sharpen(&mut self, k: usize) {
         let (train, fit) = (&self.bench.train, &self.found.best);
         let begun = train.records[k].beginning.clone();
-        if begun.turned.is_empty() {
+        if !begun.is_sought() {
             return;
         }
         let (_, sharp) = sharpened(begun, |beginning| left(train, fit, (k, beginning)));
@@ -304,7 +317,7 @@ impl Investigation {
     /// records were found before any cause was, and one cause of several may do what they are wrong by.
     fn other_past(&self) -> Option<Vec<Beginning>> {
         let best = &self.found.best;
-        if best.effects.len() < 2 {
+        if best.effects.len() < 2 || !self.beginnings().any(Beginning::is_sought) {
             return None;
         }
         let fewer = (0..best.effects.len()).filter_map(|drop| {
@@ -314,7 +327,7 @@ impl Investigation {
             let brought = fit.misfit - best.misfit;
             for _ in 0..ROUNDS {
                 for k in 0..train.records.len() {
-                    if train.records[k].beginning.turned.is_empty() {
+                    if !train.records[k].beginning.is_sought() {
                         continue;
                     }
                     let (input, _) = train.channels(k);

@@ -1,5 +1,6 @@
 //! Before any fit: the form the records are judged in, their noise, what is held out.
 
+use super::gridded::{fitted, resolve};
 use super::mains_phase;
 use super::sizes::sizes;
 use super::striking::{strike_channels, strike_residuals};
@@ -171,11 +172,16 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         unsure: vec![0; records.len()],
     };
     for (k, beginning) in beginnings.iter().enumerate() {
-        if !beginning.turned.is_empty() {
+        if beginning.is_sought() {
             bench.unsure[k] = early(bench.whole.channels(k).0);
         }
     }
+    // A joint that remembers where it was turned is as worn as it was left.
+    if beginnings.iter().any(|b| b.goes_on) {
+        bench.wear_on();
+    }
     bench.weigh(noise);
+    resolve(&mut bench);
     bench
 }
 
@@ -289,21 +295,6 @@ impl Bench {
             })
             .collect()
     }
-}
-
-/// The baseline on a grid adapted to it, as long as that lowers the misfit.
-fn fitted(mut problem: Problem) -> (Problem, Fit) {
-    let mut fit = baseline(&problem);
-    for _ in 0..3 {
-        let mut finer = problem.clone();
-        finer.operators = problem.operators.adapted(&fit.coefficients);
-        let refitted = baseline(&finer);
-        if refitted.misfit >= fit.misfit {
-            break;
-        }
-        (problem, fit) = (finer, refitted);
-    }
-    (problem, fit)
 }
 
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent

@@ -201,6 +201,11 @@ fn begins(record: &Record, beginning: &Beginning, form: Form) -> Option<String> 
     let name = &record.name;
     let largest = channel.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let first = channel.first().copied().unwrap_or(0.0);
+    if beginning.goes_on {
+        return Some(format!(
+            "Record {name}: the joint goes on where the record before left it."
+        ));
+    }
     if let Some(last) = beginning.turned.last() {
         return Some(format!(
             "Record {name} begins in the middle of a test: its {drive} came from a turn at {} or so.",

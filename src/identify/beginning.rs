@@ -6,6 +6,7 @@
 //! changed over the first cycles.
 
 use super::fit::{Fit, baseline, least_misfit};
+use super::gone_on::gone_on;
 use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::Problem;
@@ -20,6 +21,8 @@ pub struct Beginning {
     pub zero: f64,
     /// Readings at which the load had turned before, oldest first; none for a virgin joint.
     pub turned: Vec<f64>,
+    /// True where those are the turns of the record before, and not sought.
+    pub goes_on: bool,
 }
 
 impl Beginning {
@@ -27,13 +30,16 @@ impl Beginning {
     pub fn at(zero: f64) -> Beginning {
         Beginning {
             zero,
-            turned: Vec::new(),
+            ..Beginning::default()
         }
     }
 
     /// A joint whose load had turned at these readings, oldest first.
     fn behind(turned: Vec<f64>) -> Beginning {
-        Beginning { zero: 0.0, turned }
+        Beginning {
+            turned,
+            ..Beginning::default()
+        }
     }
 
     /// True for a virgin joint at the zero of its channel.
@@ -43,7 +49,15 @@ impl Beginning {
 
     /// Count of values that it takes to say: turns before the record; a zero is its first reading.
     pub fn values(&self) -> usize {
-        self.turned.len()
+        match self.goes_on {
+            true => 0,
+            false => self.turned.len(),
+        }
+    }
+
+    /// True where there are turns before the record that were sought.
+    pub fn is_sought(&self) -> bool {
+        self.values() > 0
     }
 }
 
@@ -78,7 +92,8 @@ const SHRINKS: [f64; 4] = [0.4, 0.55, 0.7, 0.85];
 /// Each record is asked alone, by the misfit of the best joint for it: another beginning has to take away half of
 /// what a virgin joint leaves until the load has turned twice; where the first reading is not zero, which a
 /// virgin joint's is as a rule, any part of it. The first readings themselves as the zeros are another alternative to
-/// the turns before them, however much they leave beside causes not yet known. `first` is the baseline of virgin joints.
+/// the turns before them, however much they leave beside causes not yet known. A joint that goes on where the record
+/// before left it is one more, see [`gone_on`]. `first` is the baseline of virgin joints.
 pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
@@ -94,7 +109,8 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
         }
     };
     let readings = problem.records.iter().map(reading).collect();
-    let mut all: Vec<Vec<Beginning>> = vec![nearest, readings];
+    let mut all = gone_on(problem, nearest);
+    all.push(readings);
     all.dedup();
     all.retain(|one| one.iter().any(|b| !b.is_virgin()));
     all
@@ -152,7 +168,7 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
 }
 
 /// True where what is left falls by enough for another beginning.
-fn wins(all: f64, before: f64, samples: usize) -> bool {
+pub(super) fn wins(all: f64, before: f64, samples: usize) -> bool {
     before - all > FALL * all / samples as f64
 }
 

@@ -10,6 +10,7 @@ pub mod family;
 pub mod fewer;
 pub mod finer;
 pub mod fit;
+mod gone_on;
 mod inertia;
 pub mod initial;
 pub mod interval;

@@ -8,7 +8,7 @@ use super::turns::{Resonance, Turns};
 use super::undone::{corrected, true_input};
 use super::walk::walk;
 use super::weighing::whiten;
-use crate::joint::effect::{Acting, Trajectory};
+use crate::joint::effect::{Acting, Place, Trajectory};
 use crate::record::Record;
 use crate::record::noise::independence;
 use rayon::prelude::*;
@@ -107,7 +107,10 @@ impl Problem {
 
     /// True where an effect of a record depends on what the records before it were.
     fn follows_records(&self, effects: &[Acting]) -> bool {
-        self.wears_on && effects.iter().any(|a| a.effect.lasting() > 0)
+        let goes_on = self.records.iter().any(|r| r.beginning.goes_on);
+        let limits = |a: &Acting| goes_on && a.acts_at(Place::SlipLimit);
+        let lasts = |a: &Acting| a.effect.lasting() > 0;
+        self.wears_on && effects.iter().any(|a| lasts(a) || limits(a))
     }
 
     fn wear_before(&self, k: usize, model: (&[f64], &[Acting], Cells)) -> Wear {
@@ -157,7 +160,7 @@ impl Problem {
                 effects,
                 (cells, self.hauling),
             )
-            .worn(wear);
+            .worn(wear, record.beginning.goes_on);
             walk(record, (&input, &between), &mut march, |i, march, step| {
                 if let Some(i) = i {
                     truth.force[i] = step.force;
@@ -317,7 +320,7 @@ const TURNS: usize = 3;
 mod tests {
     use super::*;
     use crate::identify::rows::tests::Beside;
-    use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+    use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
 
     /// A load cell that reads too much; by what its law says it follows.

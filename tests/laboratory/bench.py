@@ -27,6 +27,7 @@ class Task:
     span: tuple = (1.0, 5.0)  # of the misfit after refit over the noise
     noise: str | None = None
     measurement: str = "blind"
+    goes_on: bool = False  # one joint through all files
 
     @property
     def key(self):
@@ -39,8 +40,9 @@ class Task:
         """(records, truth, style)."""
         if len(self.effects) == 1:
             name = self.effects[0]
-            drawn = draw_case(self.seed, self.number, name, span=self.span, noise=self.noise)
-            if self.measurement != "begun":
+            how = {"span": self.span, "noise": self.noise, "goes_on": self.goes_on}
+            drawn = draw_case(self.seed, self.number, name, **how)
+            if self.measurement != "begun" or self.goes_on:
                 return drawn
             records, truth, style = drawn
             return *begun.begin(self.seed, self.number, records, truth), style

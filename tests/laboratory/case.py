@@ -45,9 +45,13 @@ class Gauge:
     def __init__(self, scene):
         self.scene = scene
         self.clean = Sampled(scene, scene.clean, Effect())
-        self.known, self.baseline = self.clean.drive, Baseline(self.clean.drive, scene.by_force)
+        self.known = self.clean.drive
+        self.baseline = self._refit(self.known)
         self.floor = self.baseline.misfit(self.clean.response)
         self.rms = float(np.sqrt(np.mean(np.concatenate(self.clean.response) ** 2)))
+
+    def _refit(self, drives):
+        return Baseline(drives, self.scene.by_force, self.scene.goes_on)
 
     def __call__(self, effect):
         acts = effect.acts
@@ -58,7 +62,7 @@ class Gauge:
             np.allclose(a, b, rtol=1e-9, atol=1e-9 * np.max(np.abs(b)))
             for a, b in zip(sampled.drive, self.known, strict=True)
         )
-        baseline = self.baseline if same else Baseline(sampled.drive, self.scene.by_force)
+        baseline = self.baseline if same else self._refit(sampled.drive)
         return baseline.misfit(sampled.response), sampled
 
 
@@ -102,10 +106,12 @@ def calibrate(gauge, effect, target):
     raise Unreachable("no strength gives this ratio")
 
 
-def _scene(rng, names):
+def _scene(rng, names, goes_on):
     joint = draw_joint(rng)
     needed = not NEEDS_HOLDS.isdisjoint(names)
     histories = loads.draw_campaign(rng, holds=needed or rng.random() < 0.12)
+    if goes_on and len(histories) < 2:
+        raise Unreachable("one file goes on from none")
     by_force = bool(rng.random() < 0.65)
     if by_force:
         share = rng.uniform(0.3, 0.95)
@@ -115,7 +121,7 @@ def _scene(rng, names):
         share = 10 ** rng.uniform(np.log10(0.3), np.log10(4.0))
         soft = 1.0 / joint.network_stiffness + 1.0 / joint.series
         peak = share * joint.full_slip * soft
-    return Scene.stage(joint, histories, by_force, float(peak)), float(share)
+    return Scene.stage(joint, histories, by_force, float(peak), goes_on), float(share)
 
 
 @dataclass
@@ -144,12 +150,12 @@ class Staged:
         return self.level * self.gauge.rms
 
 
-def stage_scene(rng, names, ratio, noise_kind):
+def stage_scene(rng, names, ratio, noise_kind, goes_on=False):
     """(scene, share of full slip, gauge, level, noise) in which the effects may be planted.
 
     Raises Unreachable where the clean record itself does not refit well enough.
     """
-    scene, share = _scene(rng, names)
+    scene, share = _scene(rng, names, goes_on)
     gauge = Gauge(scene)
     level = 10 ** rng.uniform(-3.0, -2.0)
     kind = Noise.of(noise_kind, draw_colour(rng))
@@ -191,9 +197,12 @@ def planted(name, scene, rng, gauge, target, noise, refused):
     raise Unreachable(f"no draft of {name} would do")
 
 
-def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None):
+def stage_case(
+    seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None, goes_on=False
+):
     """The hidden joint and effect of a case; the same arguments give the same ones.
 
+    The joint is made new for every file, or `goes_on` through all of them.
     Scenes in which the effect cannot reach the ratio at a sensible strength are drawn again; the
     truth says how often.
     """
@@ -204,7 +213,7 @@ def stage_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, 
     for attempt in range(40):
         rng = np.random.default_rng([seed, number, attempt])
         try:
-            scene, share, gauge, level, kind = stage_scene(rng, (name,), ratio, noise)
+            scene, share, gauge, level, kind = stage_scene(rng, (name,), ratio, noise, goes_on)
             effect, found, sampled = Effect(), gauge.floor, gauge.clean
             if name != "clean":
                 noise_rms = level * gauge.rms
@@ -256,13 +265,16 @@ def record(staged):
         "joint": scene.joint.describe(),
         "files": [h.describe() for h in scene.histories],
         "drawn_again": staged.refused,
+        **({"beginning": {"way": "goes_on"}} if scene.goes_on else {}),
     }
     return records, truth, csvfile.draw_style(rng)
 
 
-def draw_case(seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None):
+def draw_case(
+    seed, number, name=None, ratio=None, span=(1.0, 5.0), pool=None, noise=None, goes_on=False
+):
     """(records, truth, style) of one case; records are (time, force, displacement) in SI, noisy."""
-    staged = stage_case(seed, number, name, ratio, span, pool, noise)
+    staged = stage_case(seed, number, name, ratio, span, pool, noise, goes_on)
     records, measured, style = record(staged)
     (name,), effect, hidden = staged.names, staged.effect, staged.names != ("clean",)
     truth = {

@@ -61,7 +61,11 @@ def _pairs(summary):
     return _table([*head, "both by name", "both in some set", "a name that is neither"], rows)
 
 
-BEGINNINGS = {"cut": "cut from a longer test", "zero": "zero of the drive off"}
+BEGINNINGS = {
+    "cut": "cut from a longer test",
+    "zero": "zero of the drive off",
+    "goes_on": "one joint through all files",
+}
 
 
 def _begun(summary):

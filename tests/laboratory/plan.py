@@ -59,14 +59,20 @@ def pairs(seed, turn, ratio=PAIR_STRENGTH, count=PAIRS_PER_ROUND, noise=None):
 
 
 def begun(seed, turn, count=BEGUN_PER_ROUND):
-    """Records of no virgin joint at zero: as many clean ones as with an effect that lasts."""
-    first = 70_000 + 2 * turn * count
-    names = np.random.default_rng([seed, first]).choice(LASTING, size=count)
-    return [
-        Task(seed, first + 2 * j + k, (str(name),), span, None, "begun")
-        for j in range(count)
-        for k, (name, span) in enumerate((("clean", (1.0, 1.0)), (names[j], (1.0, 5.0))))
-    ]
+    """Records of no virgin joint at zero: as many clean ones as with an effect.
+
+    Those cut or moved have one that lasts; as many again are of one joint through all files.
+    """
+    tasks = []
+    for first, names, goes_on in ((70_000, LASTING, False), (80_000, tuple(CATALOGUE), True)):
+        first += 2 * turn * count
+        names = np.random.default_rng([seed, first]).choice(names, size=count)
+        tasks += [
+            Task(seed, first + 2 * j + k, (str(name),), span, None, "begun", goes_on)
+            for j in range(count)
+            for k, (name, span) in enumerate((("clean", (1.0, 1.0)), (names[j], (1.0, 5.0))))
+        ]
+    return tasks
 
 
 PLANS = {"power": power, "foreign": foreign, "clean": clean, "pairs": pairs, "begun": begun}

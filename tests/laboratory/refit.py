@@ -16,22 +16,25 @@ def _thresholds(reach):
     return reach * np.unique(np.round(np.concatenate([near[:-1], far, even]), 6))
 
 
-def play_columns(drive, reach):
-    """Drive and its play operators, one column per threshold."""
+def play_columns(drive, reach, before=None):
+    """Drive and its plays, a column per threshold; they begin as those `before` ended."""
     r = _thresholds(reach)
     out = np.empty((len(drive), len(r) + 1))
     out[:, 0] = drive
-    p = np.zeros_like(r)
+    p = np.zeros_like(r) if before is None else before.copy()
     for i, x in enumerate(drive):
         np.minimum(np.maximum(p, x - r, out=p), x + r, out=p)
         out[i, 1:] = p
     return out
 
 
-def _halves(drives, by_force):
+def _halves(drives, by_force, goes_on):
     reach = max(np.max(np.abs(d)) for d in drives)
+    before = None
     for drive in drives:
-        columns = play_columns(drive, reach)
+        columns = play_columns(drive, reach, before)
+        if goes_on:
+            before = columns[-1, 1:].copy()
         if not by_force:  # a stop is the drive less its play
             columns[:, 1:] = drive[:, None] - columns[:, 1:]
         yield columns
@@ -40,8 +43,8 @@ def _halves(drives, by_force):
 class Baseline:
     """Dictionary of one campaign, factored once; refits any response on it."""
 
-    def __init__(self, drives, by_force):
-        blocks = list(_halves(drives, by_force))
+    def __init__(self, drives, by_force, goes_on=False):
+        blocks = list(_halves(drives, by_force, goes_on))
         rows, width = sum(len(b) for b in blocks), blocks[0].shape[1]
         a = np.zeros((rows, width + 2 * len(blocks)))
         at = 0

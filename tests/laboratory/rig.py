@@ -14,6 +14,15 @@ class Infeasible(Exception):
 
 
 @dataclass
+class Rest:
+    """What a specimen is like between two tests."""
+
+    held: np.ndarray  # [N] forces of the elements
+    slip: float  # [m]
+    displacement: float  # [m]
+
+
+@dataclass
 class Trace:
     """What truly happened, on the fine grid: no sensor has looked yet."""
 
@@ -22,6 +31,7 @@ class Trace:
     displacement: np.ndarray  # [m] across the whole specimen
     slip: np.ndarray  # [m] across the elements
     dissipated: np.ndarray  # [J] by the elements since the start
+    rest: Rest  # as the test ended
 
 
 class Effect:
@@ -80,14 +90,16 @@ class Step:
     __slots__ = ("dt", "slip", "moved", "force", "network", "displacement", "heat", "stuck")
 
 
-def drive(joint, time, command, by_force, effect=None):
-    """Response of a virgin joint to `command` [N or m] at `time` [s], starting at rest at zero.
+def drive(joint, time, command, by_force, effect=None, rest=None):
+    """Response of a joint to `command` [N or m] at `time` [s].
 
-    Raises Infeasible where the joint slips away under the force.
+    The joint is virgin, or as another test left it at `rest`, and the effect with it; the command
+    begins where that test ended. Raises Infeasible where the joint slips away under the force.
     """
     effect = effect or Effect()
     effect.dt = float(time[1] - time[0])
-    effect.reset()
+    if rest is None:
+        effect.reset()
     acts = effect.acts
     moving_limits, has_contact = "limits" in acts, "contact" in acts
     has_series, has_damper, has_after = "series" in acts, "damper" in acts, "after" in acts
@@ -100,6 +112,8 @@ def drive(joint, time, command, by_force, effect=None):
     trial, now_held = np.empty_like(base), np.empty_like(base)
     stuck = np.empty(len(base), dtype=bool)
     u = moved = total = 0.0
+    if rest is not None:
+        held[:], u, total = rest.held, rest.slip, rest.displacement
     scale = np.max(np.abs(command))
     tolerance = 1e-10 * scale
     stiff_all = joint.network_stiffness
@@ -108,7 +122,7 @@ def drive(joint, time, command, by_force, effect=None):
     farthest = 1e4 * (joint.full_slip / stiff_all + (0.0 if by_force else scale))
 
     n = len(time)
-    forces, totals, slips = np.zeros(n), np.zeros(n), np.zeros(n)
+    forces, totals, slips = np.zeros(n), np.full(n, total), np.full(n, u)
     heat, heat_now = np.zeros(n), 0.0
     step = Step()
     for i in range(1, n):
@@ -177,4 +191,4 @@ def drive(joint, time, command, by_force, effect=None):
             step.force, step.network, step.displacement = force, network, displacement
             step.stuck = stuck
             effect.after(step)
-    return Trace(time, forces, totals, slips, heat)
+    return Trace(time, forces, totals, slips, heat, Rest(held, u, total))

@@ -1,10 +1,12 @@
 """What a case offers an effect to measure itself against: sizes and durations of the clean test."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import rig
+
+UNLOADING = 40  # steps of the grid from where a test ends to zero
 
 
 @dataclass
@@ -16,19 +18,29 @@ class Scene:
     by_force: bool
     peak: float  # [N] or [m], of the drive
     clean: list  # one Trace per history
+    goes_on: bool = False  # every file begins with the joint that the one before left
 
     @classmethod
-    def stage(cls, joint, histories, by_force, peak):
+    def stage(cls, joint, histories, by_force, peak, goes_on=False):
         """Play the campaign on the ideal joint."""
-        clean = [rig.drive(joint, h.time, peak * h.command, by_force) for h in histories]
-        return cls(joint, histories, by_force, peak, clean)
+        scene = cls(joint, histories, by_force, peak, [], goes_on)
+        return replace(scene, clean=scene.play(rig.Effect()))
 
     def play(self, effect):
-        """Play the campaign on a joint with this effect; every file starts virgin."""
-        return [
-            rig.drive(self.joint, h.time, self.peak * h.command, self.by_force, effect)
-            for h in self.histories
-        ]
+        """Play the campaign on a joint with this effect; every file starts virgin, or goes on."""
+        traces, rest = [], None
+        for history in self.histories:
+            command = self.peak * history.command
+            traces.append(rig.drive(self.joint, history.time, command, self.by_force, effect, rest))
+            if self.goes_on:
+                rest = self._unload(traces[-1], command[-1], effect)
+        return traces
+
+    def _unload(self, trace, last, effect):
+        """The specimen after the way back to zero, which no file shows."""
+        time = (trace.time[1] - trace.time[0]) * np.arange(UNLOADING + 1)
+        back = np.linspace(last, 0.0, UNLOADING + 1)
+        return rig.drive(self.joint, time, back, self.by_force, effect, trace.rest).rest
 
     def largest(self, quantity):
         """Largest magnitude of a quantity of the clean traces."""

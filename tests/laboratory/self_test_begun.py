@@ -4,7 +4,9 @@ import unittest
 
 import numpy as np
 
-from . import begun, plan, quality
+from . import begun, joints, loads, plan, quality, rig
+from .refit import Baseline
+from .scene import UNLOADING, Scene
 
 
 class Begun(unittest.TestCase):
@@ -30,11 +32,31 @@ class Begun(unittest.TestCase):
                 np.testing.assert_array_equal(after[2], before[2])
         self.assertEqual(ways, {"cut", "zero"})
 
-    def test_as_many_clean_ones_as_with_an_effect_that_lasts(self):
+    def test_a_joint_that_goes_on_is_one_joint_under_one_long_test(self):
+        joint = joints.draw_joint(np.random.default_rng(3))
+        time = np.arange(401) * 0.01
+        levels = (0.6, 0.4)
+        files = [
+            loads.History(time, level * np.sin(3.0 * time), 1, "sine", [0.5]) for level in levels
+        ]
+        scene = Scene.stage(joint, files, False, 1e-5, goes_on=True)
+        ends = [1e-5 * file.command[-1] for file in files]
+        way = np.linspace(ends[0], 0.0, UNLOADING + 1)[1:]
+        command = np.concatenate([1e-5 * files[0].command, way, 1e-5 * files[1].command[1:]])
+        long = rig.drive(joint, 0.01 * np.arange(len(command)), command, False)
+        np.testing.assert_allclose(scene.clean[1].force[1:], long.force[-400:], rtol=1e-6)
+        # A virgin joint answers otherwise: its refit leaves more.
+        drives, answers = ([getattr(t, k) for t in scene.clean] for k in ("displacement", "force"))
+        leaves = [Baseline(drives, False, goes_on).misfit(answers) for goes_on in (True, False)]
+        self.assertLess(leaves[0], 0.5 * leaves[1])
+
+    def test_as_many_clean_ones_as_with_an_effect(self):
         tasks = plan.begun(5, 1)
         names = [task.effects[0] for task in tasks]
         self.assertEqual(names.count("clean"), len(tasks) // 2)
-        self.assertFalse(set(names) & set(begun.ONCE))
+        changed = {task.effects[0] for task in tasks if not task.goes_on}
+        self.assertFalse(changed & set(begun.ONCE))
+        self.assertEqual(sum(task.goes_on for task in tasks), len(tasks) // 2)
         self.assertEqual(len({task.number for task in tasks + plan.begun(5, 0)}), 2 * len(tasks))
 
     def test_totals_are_of_clean_ones_and_planted_ones_apart(self):

@@ -28,6 +28,8 @@ pub struct March<'a> {
     inertia: Inertia,
     has: [bool; 7],
     counts_energy: bool,
+    /// True where the joint is as a record before left it.
+    goes_on: bool,
 }
 
 /// What one sample gave.
@@ -49,12 +51,14 @@ pub struct Step {
 }
 
 /// What lasts of a joint's work when a record ends: none of it where every record is of a joint made new.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Wear {
     /// Energy dissipated by the network \[J\].
     dissipation: f64,
     /// Of the history of every effect what [`lasts`](crate::joint::effect::Effect::lasting).
     memories: Vec<Vec<f64>>,
+    /// Where the joint stood, if its slip limits moved: what it remembers is more than where its load turned.
+    stood: Option<(Bank, Situation)>,
 }
 
 /// Error of a step's equation, as a share of its input, that counts as none: a derivative by
@@ -135,6 +139,7 @@ impl<'a> March<'a> {
             has,
             // Only slip limits see the energy; without effects it is what the march is asked for.
             counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
+            goes_on: false,
         }
     }
 
@@ -224,6 +229,9 @@ impl<'a> March<'a> {
     /// Takes the joint through loads before the first sample: it remembers where they turned, and nothing else
     /// that effects keep; no work is counted.
     pub(super) fn precede(&mut self, time: f64, turned: &[f64]) {
+        if self.goes_on {
+            return;
+        }
         let (memories, dissipation) = (self.memories.clone(), self.last.dissipation);
         for &input in turned {
             self.step(time, 0.0, input);
@@ -241,11 +249,16 @@ impl<'a> March<'a> {
             memories: both
                 .map(|(a, memory)| memory[..a.effect.lasting()].to_vec())
                 .collect(),
+            stood: self.has[index(Place::SlipLimit)].then(|| (self.bank.clone(), self.last)),
         }
     }
 
-    /// A joint at rest that is worn so far.
-    pub(super) fn worn(mut self, wear: &Wear) -> Self {
+    /// A joint that is worn so far, at rest or, where it `goes_on`, as it stood.
+    pub(super) fn worn(mut self, wear: &Wear, goes_on: bool) -> Self {
+        if let Some((bank, last)) = wear.stood.as_ref().filter(|_| goes_on) {
+            (self.bank, self.last) = (bank.clone(), *last);
+            self.goes_on = true;
+        }
         self.last.dissipation = wear.dissipation;
         for (memory, lasted) in self.memories.iter_mut().zip(&wear.memories) {
             memory[..lasted.len()].copy_from_slice(lasted);

@@ -1,0 +1,198 @@
+//! Records of one joint in the order of its tests: each begins where the one before left the joint.
+//!
+//! A joint that is not taken apart between two tests remembers the loads of the first. Its second record is answered
+//! by another joint than a virgin one until its own load has gone beyond, and what turned before is known, not sought.
+
+use super::beginning::{Beginning, at_zero, wins};
+use super::fit::least_misfit;
+use super::problem::Problem;
+
+/// Share of the largest reading below which a later turn is forgotten: noise turns the reading all the time.
+const SMALLEST: f64 = 1e-3;
+
+/// Beginnings of the records in the order of the tests, each with the turns that those before it left, where that leaves
+/// less than virgin joints and than what is `nearest` to each record by itself; the latter too, where it leaves least.
+/// Who starts at zero has no past of his own as a rule: then the order of the tests comes first.
+///
+/// The records of `problem` are of virgin joints.
+pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beginning>> {
+    if problem.records.len() < 2 {
+        return vec![nearest];
+    }
+    let left = |beginnings: &[Beginning]| {
+        let mut begun = problem.clone();
+        for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
+            record.begin(problem.operators.form, beginning);
+        }
+        least_misfit(&begun)
+    };
+    let on = in_order(problem, &nearest);
+    let (left_on, samples) = (left(&on), problem.rows());
+    if !wins(left_on, least_misfit(problem), samples) {
+        return vec![nearest];
+    }
+    let from_zero = (1..problem.records.len()).all(|k| at_zero(problem.channels(k).0));
+    match (wins(left(&nearest), left_on, samples), from_zero) {
+        (false, _) => vec![on],
+        (true, true) => vec![on, nearest],
+        (true, false) => vec![nearest, on],
+    }
+}
+
+/// Beginnings of records in the order of the tests; the first is virgin where it starts at zero, as a rule, and as it is
+/// `alone` elsewhere.
+fn in_order(problem: &Problem, alone: &[Beginning]) -> Vec<Beginning> {
+    let first = match at_zero(problem.channels(0).0) {
+        true => Beginning::default(),
+        false => alone[0].clone(),
+    };
+    let mut turned = first.turned.clone();
+    let mut all = vec![first];
+    for k in 0..problem.records.len() - 1 {
+        let before = &problem.records[k];
+        let (input, _) = problem.channels(k);
+        let mut readings = turned;
+        let mut peaks = before.between.peaks.iter().peekable();
+        for (i, &reading) in input.iter().enumerate() {
+            let between = peaks.next_if(|peak| peak.before == i);
+            readings.extend(between.map(|peak| peak.value));
+            readings.push(reading);
+        }
+        turned = remembered(&readings);
+        all.push(Beginning {
+            turned: turned.clone(),
+            goes_on: true,
+            ..Beginning::default()
+        });
+    }
+    all
+}
+
+/// Turns that a joint at rest at zero remembers after these readings, oldest first, and the last reading.
+///
+/// The largest wipes out what came before it; of what follows, the farthest the other way; and so on (Masing, Madelung).
+fn remembered(readings: &[f64]) -> Vec<f64> {
+    let Some(&last) = readings.last() else {
+        return Vec::new();
+    };
+    let largest = |x: f64, y: &f64| x.max(y.abs());
+    let least = SMALLEST * readings.iter().fold(0.0, largest);
+    let latest = |key: &dyn Fn(f64) -> f64, from: usize| {
+        let places = (from..readings.len()).map(|i| (i, key(readings[i])));
+        places.max_by(|(_, a), (_, b)| a.total_cmp(b))
+    };
+    let mut turns = Vec::new();
+    let Some((mut place, _)) = latest(&f64::abs, 0) else {
+        return turns;
+    };
+    let mut way = readings[place].signum();
+    loop {
+        turns.push(readings[place]);
+        way = -way;
+        match latest(&|x| way * x, place) {
+            Some((next, _)) if (readings[next] - readings[place]).abs() > least => place = next,
+            _ => break,
+        }
+    }
+    if turns.last() != Some(&last) {
+        turns.push(last);
+    }
+    turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::Form;
+    use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
+    use crate::joint::parameters::Parameter;
+    use crate::record::Record;
+
+    fn record(force: &[f64]) -> Record {
+        Record {
+            displacement: vec![0.0; force.len()],
+            time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
+            force: force.to_vec(),
+            ..Record::default()
+        }
+    }
+
+    /// A load that presses the contacts together.
+    struct Pressed;
+
+    impl Effect for Pressed {
+        fn name(&self) -> &'static str {
+            "pressed"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
+            let limit = 1.0 + values[0] * last.force;
+            SlipLimit {
+                positive: limit,
+                negative: limit,
+            }
+        }
+    }
+
+    /// Limits that follow the load creep one way cycle by cycle: where the load has turned does not tell where that
+    /// has led to.
+    #[test]
+    fn a_joint_goes_on_as_it_stood_whatever_its_limits_follow() {
+        let bears = |i: usize| 800.0 * (std::f64::consts::TAU * i as f64 / 100.0).sin();
+        let long: Vec<f64> = (0..=1200).map(bears).collect();
+        let (before, after) = (&long[..=700], &long[700..]);
+        let whole = Problem::new(Form::Play, &[record(&long)]);
+        let records = [record(before), record(after)];
+        let mut parted = Problem::new(Form::Play, &records);
+        let virgin = vec![Beginning::default(); 2];
+        let on = in_order(&parted, &virgin);
+        for (record, beginning) in parted.records.iter_mut().zip(&on) {
+            record.begin(Form::Play, beginning);
+        }
+        parted.wears_on = true;
+        let mut joint = vec![1e-10; whole.operators.columns()];
+        joint[0] = 1e-9;
+        let pressed = || {
+            vec![Acting {
+                effect: &Pressed,
+                values: vec![3e-4],
+            }]
+        };
+        for effects in [Vec::new(), pressed()] {
+            let tail = &whole.predict(&joint, &effects)[0].judged[700..];
+            let one = &parted.predict(&joint, &effects)[1].judged;
+            let off = one.iter().zip(tail).map(|(a, b)| (a - b).abs());
+            let off = off.fold(0.0, f64::max);
+            let largest = tail.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!(off < 1e-9 * largest, "{} effects: {off}", effects.len());
+            // In records of virgin joints it is another.
+            let mut anew = Problem::new(Form::Play, &records);
+            anew.operators = parted.operators.clone();
+            let other = &anew.predict(&joint, &effects)[1].judged;
+            let off = other.iter().zip(tail).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) > 1e-3 * largest);
+        }
+    }
+
+    #[test]
+    fn a_joint_remembers_the_largest_load_and_what_was_nested_in_it() {
+        let loads = [0.0, 3.0, -2.0, 5.0, -4.0, 2.0, -1.0, 1.0, 0.5];
+        assert_eq!(
+            remembered(&loads),
+            [5.0, -4.0, 2.0, -1.0, 1.0, 0.5],
+            "all are nested"
+        );
+        // A later load that goes as far wipes out what was nested within.
+        assert_eq!(remembered(&[0.0, 5.0, -4.0, 2.0, -5.0]), [-5.0]);
+        assert_eq!(
+            remembered(&[0.0, 5.0, -4.0, 2.0, -4.5, 0.0]),
+            [5.0, -4.5, 0.0]
+        );
+        assert_eq!(remembered(&[]), [0.0; 0]);
+    }
+}
