@@ -8,7 +8,7 @@
 //!   "causes": [{"name": "pinning", "parameters": {"…": 0.0}}],
 //!   "provenance": {
 //!     "records": [{"name": "bolt-1", "samples": 4000, "sha256": "…",
-//!                  "duration": 8.0, "sample_interval": 0.002}],
+//!                  "duration": 8.0, "sample_interval": 0.002, "largest_force": 4300.0}],
 //!     "date": "2024-05-01T12:00:00Z",
 //!     "verdict": {"word": "explained", "held_out_rms_ratio": 0.2, "interval": [0.18, 0.23]}
 //!   },
@@ -70,6 +70,17 @@ pub struct RecordUsed {
     pub sha256: String,
     /// Times from the first to the last sample, where the record has times.
     pub span: Option<Span>,
+    /// Largest magnitude of its force \[N\], where the file says it.
+    pub largest_force: Option<f64>,
+}
+
+impl Provenance {
+    /// Largest magnitude of the force in any record \[N\]: beyond it nothing was measured of the joint. `None` where a
+    /// record does not say it, or there is none.
+    pub fn largest_force(&self) -> Option<f64> {
+        let all: Option<Vec<f64>> = self.records.iter().map(|r| r.largest_force).collect();
+        all?.into_iter().reduce(f64::max)
+    }
 }
 
 /// How long a record is, and how closely sampled.

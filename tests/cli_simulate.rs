@@ -73,6 +73,30 @@ fn two_sliders_under_a_ramp_answer_as_by_hand() {
 }
 
 #[test]
+fn a_load_beyond_what_was_measured_of_the_joint_is_told() {
+    let folder = folder("beyond");
+    let measured = r#""causes": [], "provenance": {"records": [
+        {"name": "a", "samples": 9, "sha256": "ab", "largest_force": 40.0},
+        {"name": "b", "samples": 9, "sha256": "cd", "largest_force": 25.0}]}"#;
+    let joint = JOINT.replace(r#""causes": []"#, measured);
+    std::fs::write(folder.join("joint.json"), joint).expect("a file");
+    std::fs::write(folder.join("nowhere.json"), JOINT).expect("a file");
+    let told = |joint: &str, largest: f64| {
+        let load = format!("t [s],F [N]\n0,0\n1,{largest}\n2,0\n");
+        std::fs::write(folder.join("load.csv"), load).expect("a file");
+        let output = simulate(&folder, &[joint, "load.csv", "-o", "out.csv"]);
+        String::from_utf8(output.stderr).expect("text")
+    };
+    let beyond = told("joint.json", -50.0);
+    assert!(
+        beyond.contains("up to 50.0 N") && beyond.contains("measured up to 40.0 N"),
+        "{beyond}"
+    );
+    assert_eq!(told("joint.json", 41.0), "");
+    assert_eq!(told("nowhere.json", 50.0), "");
+}
+
+#[test]
 fn the_answer_driven_back_in_displacement_gives_the_force() {
     let folder = folder("round trip");
     std::fs::write(folder.join("joint.json"), JOINT).expect("a file");

@@ -16,6 +16,7 @@ fn saved(density: Density, series_stiffness: f64, effects: Vec<Acting>) -> Saved
             samples: 4000,
             sha256: "ab12".into(),
             span: Span::of(&[0.1, 0.2, 0.4]),
+            largest_force: Some(0.1 + 0.7),
         }],
         date: Some("2024-05-01".into()),
         tool: Some("iwan 0.1.0".into()),

@@ -6,6 +6,7 @@ use crate::joint::Joint;
 use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
 use crate::record::{AmplitudeTable, Measurement};
+use crate::saved::SavedJoint;
 use std::path::{Path, PathBuf};
 
 /// How to read files whose header does not say what they hold.
@@ -184,9 +185,18 @@ pub fn joint(file: &Path) -> anyhow::Result<Joint> {
 /// Reads a joint.json once, as a pipe can be, and gives its text as well.
 ///
 /// # Errors
+/// As [`saved`].
+pub fn joint_and_text(file: &Path) -> anyhow::Result<(Joint, String)> {
+    let (saved, text) = saved(file)?;
+    Ok((saved.joint, text))
+}
+
+/// Reads a joint.json with where the joint comes from, and gives its text as well.
+///
+/// # Errors
 /// [`BadInput`] where there is no such text file, [`crate::saved::SavedError`] with the place
 /// where it holds no joint.
-pub fn joint_and_text(file: &Path) -> anyhow::Result<(Joint, String)> {
+pub fn saved(file: &Path) -> anyhow::Result<(SavedJoint, String)> {
     let name = file.display().to_string();
     let refuse = |reason: String| BadInput(format!("{name}: {reason}"));
     if file.is_dir() {
@@ -200,5 +210,5 @@ pub fn joint_and_text(file: &Path) -> anyhow::Result<(Joint, String)> {
     })?;
     let text = String::from_utf8(bytes)
         .map_err(|_| refuse("this is no joint.json: not a text in UTF-8".to_string()))?;
-    Ok((crate::saved::read(&text, &name)?.joint, text))
+    Ok((crate::saved::read(&text, &name)?, text))
 }

@@ -21,18 +21,20 @@ pub fn provenance(loaded: &[Loaded], subcommand: &str) -> Provenance {
 }
 
 fn record(loaded: &Loaded) -> RecordUsed {
-    let (name, samples, span) = match &loaded.measurement {
+    let (name, force, span) = match &loaded.measurement {
         Measurement::History(record) => {
             let span = record.time.as_deref().and_then(Span::of);
-            (&record.name, record.len(), span)
+            (&record.name, &record.force, span)
         }
-        Measurement::Amplitudes(table) => (&table.name, table.force_amplitude.len(), None),
+        Measurement::Amplitudes(table) => (&table.name, &table.force_amplitude, None),
     };
+    let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
     RecordUsed {
         name: name.clone(),
-        samples,
+        samples: force.len(),
         sha256: loaded.sha256.clone(),
         span,
+        largest_force: (largest > 0.0).then_some(largest),
     }
 }
 

@@ -4,6 +4,7 @@ use super::input::{Foreign, tell_notes};
 use super::output;
 use crate::joint::{Drive, Joint, Output, Simulation};
 use crate::read::{self, LoadTable, Quantity};
+use crate::record::written::quantity;
 use anyhow::Context;
 use std::path::PathBuf;
 
@@ -44,10 +45,14 @@ const HEADER: &str = "time [s],force [N],displacement [m],dissipation [J],stored
 pub fn run(arguments: &Simulate) -> anyhow::Result<()> {
     let inputs = [arguments.joint.as_path(), arguments.load.as_path()];
     output::admit(&arguments.output, &inputs)?;
-    let joint = super::input::joint(&arguments.joint)?;
+    let (saved, _) = super::input::saved(&arguments.joint)?;
+    let joint = saved.joint;
     let load = read::load_table(&arguments.load, &arguments.foreign.options()?)?;
     tell_notes(&arguments.load, &load.notes);
     let outputs = simulate(&joint, &load, arguments.drive)?;
+    if let Some(said) = beyond(&outputs, saved.provenance.largest_force()) {
+        output::tell(&said);
+    }
     output::write(&arguments.output, |out| {
         writeln!(out, "{HEADER}")?;
         for at in &outputs {
@@ -66,6 +71,22 @@ pub fn run(arguments: &Simulate) -> anyhow::Result<()> {
         }
         Ok(())
     })
+}
+
+/// Share beyond the largest measured force that a load may go without a word: a zero is off by as much.
+const BEYOND: f64 = 0.05;
+
+/// What is said where the joint bears more than was measured of it.
+fn beyond(outputs: &[Output], measured: Option<f64>) -> Option<String> {
+    let largest = outputs
+        .iter()
+        .fold(0.0_f64, |most, at| most.max(at.force.abs()));
+    let measured = measured.filter(|measured| largest > (1.0 + BEYOND) * measured)?;
+    Some(format!(
+        "the joint bears up to {} here, and was measured up to {}: beyond that the answer is a continuation of the model, which no record supports",
+        quantity(largest, "N"),
+        quantity(measured, "N")
+    ))
 }
 
 /// The answer to every row of the load.

@@ -64,10 +64,12 @@ pub fn stays_on_a_finer_grid(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::prepare::prepare;
     use crate::identify::Form;
+    use crate::identify::beginning::Beginning;
     use crate::joint::effect::{Acting, Effect, Place, Trajectory};
     use crate::joint::parameters::Parameter;
-    use crate::record::Record;
+    use crate::record::{Record, noise};
 
     static SIZE: [Parameter; 1] = [Parameter {
         name: "size",
@@ -144,6 +146,40 @@ mod tests {
         problem.records[0].weight.fill(weight);
         let (current, fit) = fitted(&problem);
         stays_on_a_finer_grid(&problem, &current, (evidence, &fit))
+    }
+
+    /// Cells of a bench of forty sliders spread out, ten cycles of it with noise so loud.
+    fn cells(loud: f64) -> usize {
+        let displacement: Vec<f64> = (0..1500)
+            .map(|i| 2.1 * (0.0419 * f64::from(i)).sin() * f64::from(i.min(600)) / 600.0)
+            .collect();
+        let mut reached = [0.0_f64; 40];
+        let mut before = 0.0;
+        let mut noise = noise::tests::drawn(20261125);
+        let mut answer = |u: f64| {
+            for (j, d) in reached.iter_mut().enumerate() {
+                let limit = 0.2 + 0.05 * j as f64;
+                *d = (*d + u - before).clamp(-limit, limit);
+            }
+            before = u;
+            reached.iter().sum::<f64>() + loud * noise()
+        };
+        let record = Record {
+            name: "spread".to_string(),
+            time: Some((0..1500).map(|i| 0.01 * f64::from(i)).collect()),
+            force: displacement.iter().map(|u| answer(*u)).collect(),
+            displacement,
+            ..Record::default()
+        };
+        let bench = prepare(Form::Stop, &[record], &[Beginning::default()]);
+        assert_eq!(bench.whole.operators, bench.train.operators);
+        bench.train.operators.edges.len()
+    }
+
+    #[test]
+    fn a_grid_is_halved_where_noise_does_not_hide_what_it_is_wrong_by() {
+        let (quiet, loud) = (cells(0.02), cells(2.0));
+        assert_eq!(quiet, 2 * loud);
     }
 
     static MENDS: Adds = Adds(sharp);

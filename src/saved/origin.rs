@@ -32,6 +32,10 @@ pub fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
                 samples: count.ok_or_else(|| samples.unusable("a whole number"))?,
                 sha256: record.get("sha256", "the file's hash")?.text()?.into(),
                 span: span(&record)?,
+                largest_force: record
+                    .find("largest_force")
+                    .map(|found| positive(&found, "newtons"))
+                    .transpose()?,
             });
         }
     }
@@ -41,16 +45,19 @@ pub fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
 /// Both or none: a duration without a distance of samples says nothing of the rate.
 fn span(record: &Entry) -> Result<Option<Span>, SavedError> {
     let (duration, interval) = (record.find("duration"), record.find("sample_interval"));
-    let positive = |entry: Entry| match entry.number()? {
-        value if value > 0.0 => Ok(value),
-        _ => Err(entry.unusable("a positive number of seconds")),
-    };
     match (duration, interval) {
         (Some(duration), Some(interval)) => Ok(Some(Span {
-            duration: positive(duration)?,
-            sample_interval: positive(interval)?,
+            duration: positive(&duration, "seconds")?,
+            sample_interval: positive(&interval, "seconds")?,
         })),
         _ => Ok(None),
+    }
+}
+
+fn positive(entry: &Entry, of: &str) -> Result<f64, SavedError> {
+    match entry.number()? {
+        value if value > 0.0 => Ok(value),
+        _ => Err(entry.unusable(&format!("a positive number of {of}"))),
     }
 }
 

@@ -86,6 +86,9 @@ fn record(used: &RecordUsed) -> Value {
         entry["duration"] = number(span.duration);
         entry["sample_interval"] = number(span.sample_interval);
     }
+    if let Some(largest) = used.largest_force {
+        entry["largest_force"] = number(largest);
+    }
     entry
 }
 

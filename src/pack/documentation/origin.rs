@@ -27,7 +27,7 @@ pub fn section(page: &mut String, provenance: &Provenance) {
     }
     page.push_str(
         "<table>\n<tr><th>Record</th><th>Samples</th><th>Duration [s]</th>\
-         <th>Samples per second</th><th>SHA-256 of the file</th></tr>\n",
+         <th>Samples per second</th><th>Largest force [N]</th><th>SHA-256 of the file</th></tr>\n",
     );
     for record in &provenance.records {
         page.push_str(&row(record));
@@ -43,9 +43,12 @@ fn row(record: &RecordUsed) -> String {
         ),
         None => (String::new(), String::new()),
     };
+    let force = record
+        .largest_force
+        .map_or(String::new(), |largest| format!("{largest:.6}"));
     format!(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{duration}</td>\
-         <td class=\"number\">{rate}</td><td><code>{}</code></td></tr>\n",
+         <td class=\"number\">{rate}</td><td class=\"number\">{force}</td><td><code>{}</code></td></tr>\n",
         escape(&record.name),
         record.samples,
         escape(&record.sha256),
