@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from . import csvfile, loads, noise
-from .case import Gauge, calibrate
+from .case import Gauge, Staged, calibrate
 from .effects_catalogue import Pinning
 from .joints import Joint, levels
 from .scene import Scene
 
-RATIO = 4.0
+RATIO, LEVEL = 4.0, 0.004  # of the effect over the noise, and of that over the response
 COMMENTS = [
     "bolted lap joint, driven by force, stepped sine at {rate:g} Hz",
     "made by the virtual laboratory (tests/laboratory): a simulated joint with one hidden effect",
@@ -31,8 +31,8 @@ def _test(rate, spc, steps, repeats):
     return loads.History(time, command, fine, "stepped_sine", [rate])
 
 
-def make(directory, seed=20010811):
-    """Write bolt-1.csv, bolt-2.csv and bolt_truth.json."""
+def stage(seed):
+    """The example before its noise, as a case that further loads may be played on."""
     rng = np.random.default_rng(seed)
     chi, n = -0.4, 400
     reach = levels(rng, n) ** (1.0 / (1.0 + chi))
@@ -52,13 +52,21 @@ def make(directory, seed=20010811):
     effect.sides, effect.share, effect.law = "both", (1.0, 0.6), "power"
     effect.gaps, effect.power = scene.largest("slip") * np.array([0.45, 0.62]), 1.25
     gauge = Gauge(scene)
-    rms = 0.004 * gauge.rms
-    found, sampled = calibrate(gauge, effect, RATIO * rms)
+    found, sampled = calibrate(gauge, effect, RATIO * LEVEL * gauge.rms)
+    head = (seed, 0, (effect.name,), RATIO, (found,), scene, 0.72, gauge, effect, sampled)
+    return Staged(*head, LEVEL, noise.Noise("white"), None, rng, [])
+
+
+def make(directory, seed=20010811):
+    """Write bolt-1.csv, bolt-2.csv and bolt_truth.json."""
+    staged = stage(seed)
+    scene, gauge, effect, sampled = staged.scene, staged.gauge, staged.effect, staged.sampled
+    (found,), rms = staged.found, staged.rms
     style = {"force": "N", "length": "m", "swap": False}
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    for j, history in enumerate(histories):
-        measured = sampled.displacement[j] + noise.noise(rng, history.samples, rms, 0.0)
+    for j, history in enumerate(scene.histories):
+        measured = sampled.displacement[j] + noise.noise(staged.rng, history.samples, rms, 0.0)
         csvfile.write_record(
             directory / f"bolt-{j + 1}.csv",
             sampled.time[j],
@@ -75,8 +83,8 @@ def make(directory, seed=20010811):
         "parameters": effect.describe(),
         "ratio_achieved": found / rms,
         "refit_floor_over_noise": gauge.floor / rms,
-        "noise": {"response_rms": rms, "of_response_rms": 0.004, "lag_one_correlation": 0.0},
-        "joint": joint.describe(),
+        "noise": {"response_rms": rms, "of_response_rms": LEVEL, "lag_one_correlation": 0.0},
+        "joint": scene.joint.describe(),
         "peak_force_N": scene.peak,
         "seed": seed,
     }

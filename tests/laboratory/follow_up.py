@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from . import csvfile, rig
+from . import csvfile, demo, rig
 from .bench import Task, diagnose, run
 from .case import stage_case, write_case
 from .effects_instrument import FOLLOW_UP_FINE
@@ -24,6 +24,8 @@ SI = {"force": "N", "length": "m", "swap": False}
 
 
 def _restage(truth):
+    if "case" not in truth:
+        return demo.stage(truth["seed"])
     ratio, kind = truth["ratio_asked"] or None, truth["noise"]["asked"]
     if "effects" in truth:
         return stage_pair(truth["seed"], truth["case"], truth["effects"], ratio, kind)[0]
@@ -67,7 +69,7 @@ def run_load(truth, load, directory):
     """Measure the case of `truth` under `load`; writes DIR/test-next.csv and returns its path."""
     truth = json.loads(Path(truth).read_text(encoding="utf-8"))
     staged = _restage(truth)
-    rng = np.random.default_rng([truth["seed"], truth["case"], 1001])
+    rng = np.random.default_rng([truth["seed"], truth.get("case", 0), 1001])
     record = measure(staged, rng, *read_load(load))
     path = Path(directory) / "test-next.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
