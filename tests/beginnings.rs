@@ -94,41 +94,46 @@ fn turns_before_a_record_are_found_whatever_drifts() {
     }
 }
 
-/// Forty plays in series through two tests one after the other, each from zero force to zero force; the second is as the
-/// first left it, or new.
-fn two_tests(goes_on: bool) -> [Record; 2] {
+/// Forty plays in series through three tests one after the other, each from zero force to zero force; each but the
+/// first is as the one before left it, or new.
+fn tests_in_order(go_on: [bool; 2]) -> Vec<Record> {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
-    let test = |levels: [f64; 3]| {
-        let count = 12 * CYCLE;
-        let bears = move |i: usize| {
-            let level = levels[(i / CYCLE / 4).min(2)];
+    let levels = [
+        [150.0, 300.0, 500.0],
+        [250.0, 500.0, 350.0],
+        [500.0, 250.0, 400.0],
+    ];
+    let mut before = Vec::new();
+    let mut records = Vec::new();
+    for (k, levels) in levels.into_iter().enumerate() {
+        let bears = |i: usize| {
+            let level: f64 = levels[(i / CYCLE / 4).min(2)];
             level * (TAU * i as f64 / CYCLE as f64).sin()
         };
-        (0..=count).map(bears).collect::<Vec<f64>>()
-    };
-    let (first, second) = (test([150.0, 300.0, 500.0]), test([250.0, 500.0, 350.0]));
-    let long = plays::displacement(&[first.clone(), second.clone()].concat());
-    let one = plays::displacement(&first);
-    let other = match goes_on {
-        true => long[first.len()..].to_vec(),
-        false => plays::displacement(&second),
-    };
-    let mut read = |name, force, truth: Vec<f64>| {
-        let displacement = truth.iter().map(|u| u + 2e-8 * noise()).collect();
-        plays::record(name, force, displacement)
-    };
-    [read("first", first, one), read("second", second, other)]
+        let force: Vec<f64> = (0..=12 * CYCLE).map(bears).collect();
+        if k > 0 && !go_on[k - 1] {
+            before.clear();
+        }
+        before.extend_from_slice(&force);
+        let truth = plays::displacement(&before);
+        let read = truth[before.len() - force.len()..].iter();
+        let displacement = read.map(|u| u + 2e-8 * noise()).collect();
+        records.push(plays::record(&format!("test-{k}"), force, displacement));
+    }
+    records
 }
 
 #[test]
-fn a_joint_that_goes_on_from_test_to_test_is_clean() {
-    for goes_on in [true, false] {
-        let findings = diagnose(&two_tests(goes_on), |_| ()).unwrap();
-        let place = format!("seed {SEED}, goes on: {goes_on}");
+fn joints_that_go_on_from_test_to_test_or_are_new_are_clean() {
+    for go_on in [[true, true], [true, false], [false, true], [false, false]] {
+        let findings = diagnose(&tests_in_order(go_on), |_| ()).unwrap();
+        let place = format!("seed {SEED}, go on: {go_on:?}");
         assert_eq!(findings.verdict, Verdict::Clean, "{place}: {findings:?}");
-        let said = |note: &String| note.contains("goes on where the record before left it");
-        let noted = findings.notes.iter().any(said);
-        assert_eq!(noted, goes_on, "{place}: {:?}", findings.notes);
+        let noted = [1, 2].map(|k| {
+            let said = format!("test-{k}: the joint goes on where the record before left it");
+            findings.notes.iter().any(|note| note.contains(&said))
+        });
+        assert_eq!(noted, go_on, "{place}: {:?}", findings.notes);
     }
 }

@@ -12,7 +12,8 @@ const SMALLEST: f64 = 1e-3;
 
 /// Beginnings of the records in the order of the tests, each with the turns that those before it left, where that leaves
 /// less than virgin joints and than what is `nearest` to each record by itself; the latter too, where it leaves least.
-/// Who starts at zero has no past of his own as a rule: then the order of the tests comes first.
+/// Who starts at zero has no past of his own as a rule: then the order of the tests comes first. A record that leaves
+/// less as a virgin joint's is one's, be it in the midst of the others.
 ///
 /// The records of `problem` are of virgin joints.
 pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beginning>> {
@@ -26,8 +27,19 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
         }
         least_misfit(&begun)
     };
-    let on = in_order(problem, &nearest);
-    let (left_on, samples) = (left(&on), problem.rows());
+    let samples = problem.rows();
+    let mut anew = vec![false; problem.records.len()];
+    let mut on = in_order(problem, &nearest, &anew);
+    let mut left_on = left(&on);
+    for k in 1..anew.len() {
+        anew[k] = true;
+        let other = in_order(problem, &nearest, &anew);
+        let left_other = left(&other);
+        match wins(left_other, left_on, samples) {
+            true => (on, left_on) = (other, left_other),
+            false => anew[k] = false,
+        }
+    }
     if !wins(left_on, least_misfit(problem), samples) {
         return vec![nearest];
     }
@@ -39,9 +51,9 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
     }
 }
 
-/// Beginnings of records in the order of the tests; the first is virgin where it starts at zero, as a rule, and as it is
-/// `alone` elsewhere.
-fn in_order(problem: &Problem, alone: &[Beginning]) -> Vec<Beginning> {
+/// Beginnings of records in the order of the tests, joints made `anew` for some; the first is virgin where it starts at
+/// zero, as a rule, and as it is `alone` elsewhere.
+fn in_order(problem: &Problem, alone: &[Beginning], anew: &[bool]) -> Vec<Beginning> {
     let first = match at_zero(problem.channels(0).0) {
         true => Beginning::default(),
         false => alone[0].clone(),
@@ -58,12 +70,16 @@ fn in_order(problem: &Problem, alone: &[Beginning]) -> Vec<Beginning> {
             readings.extend(between.map(|peak| peak.value));
             readings.push(reading);
         }
-        turned = remembered(&readings);
-        all.push(Beginning {
-            turned: turned.clone(),
-            goes_on: true,
-            ..Beginning::default()
-        });
+        let begins = match anew[k + 1] {
+            true => Beginning::default(),
+            false => Beginning {
+                turned: remembered(&readings),
+                goes_on: true,
+                ..Beginning::default()
+            },
+        };
+        turned = begins.turned.clone();
+        all.push(begins);
     }
     all
 }
@@ -150,7 +166,7 @@ mod tests {
         let records = [record(before), record(after)];
         let mut parted = Problem::new(Form::Play, &records);
         let virgin = vec![Beginning::default(); 2];
-        let on = in_order(&parted, &virgin);
+        let on = in_order(&parted, &virgin, &[false; 2]);
         for (record, beginning) in parted.records.iter_mut().zip(&on) {
             record.begin(Form::Play, beginning);
         }

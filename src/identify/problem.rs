@@ -113,6 +113,12 @@ impl Problem {
         self.wears_on && effects.iter().any(|a| lasts(a) || limits(a))
     }
 
+    /// True for a record of a joint that was made for it, where others go on.
+    fn is_made_anew(&self, k: usize) -> bool {
+        let on = |record: &Prepared| record.beginning.goes_on;
+        self.records.iter().any(on) && !on(&self.records[k])
+    }
+
     fn wear_before(&self, k: usize, model: (&[f64], &[Acting], Cells)) -> Wear {
         let before = match self.follows_records(model.1) {
             true => 0..k,
@@ -131,6 +137,8 @@ impl Problem {
         mut each: impl FnMut(Option<usize>, &March, Step),
     ) -> (Prediction, Wear) {
         let record = &self.records[k];
+        let new = Wear::default();
+        let wear = if self.is_made_anew(k) { &new } else { wear };
         let input_place = self.operators.form.input_place();
         let corrects = |a: &&Acting| a.acts_at(input_place) && !self.is_marched(a);
         let (in_turns, correcting): (Vec<Acting>, Vec<Acting>) = effects
