@@ -59,8 +59,19 @@ pub(super) fn follow_rate(now: &Situation, memory_time: f64, memory: &mut [f64])
     }
 }
 
-/// Memory to start from, in periods of the fastest motion: a tenth of a radian.
-pub(super) const MEMORY: f64 = 0.016;
+/// Memory to start from, in periods: a tenth of a radian.
+const MEMORY: f64 = 0.016;
+
+/// Times the fastest motion's period from which the slowest one's tells another memory.
+const SLOWER: f64 = 3.0;
+
+/// Memories to start from \[s\], of the fastest motion and of the slowest: one that is shorter than a slow record's
+/// samples are apart swings with them, and no slope of the misfit leads from there to a longer one.
+pub(super) fn memories(scale: &Scale) -> impl Iterator<Item = f64> + Clone + use<> {
+    let slow = (scale.slowest > SLOWER * scale.period).then_some(scale.slowest);
+    let periods = std::iter::once(scale.period).chain(slow);
+    periods.map(|period| MEMORY * period)
+}
 
 /// Periods of the slowest record from which a memory follows what has been slid, and no rate: from a turn to the
 /// highest rate it is a quarter. In records of faster motions it may follow as slowly as it will.
@@ -114,10 +125,9 @@ impl Cause for RateDependentFriction {
         values[2] < LONGEST * scale.slowest
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        [1e-3, 0.03, 0.5]
-            .iter()
-            .map(|share| vec![0.005, share * scale.velocity, MEMORY * scale.period])
-            .collect()
+        let shares = [1e-3, 0.03, 0.5].into_iter();
+        let with = |share| memories(scale).map(move |m| vec![0.005, share * scale.velocity, m]);
+        shares.flat_map(with).collect()
     }
 }
 
@@ -136,6 +146,22 @@ mod tests {
         let values = [0.01, 1e-3, 0.5 * fastest];
         assert!(!RateDependentFriction.plausible(&values, &scale(fastest)));
         assert!(RateDependentFriction.plausible(&values, &scale(10.0 * fastest)));
+    }
+
+    /// Records of one rate tell one memory, those of several the slowest one's as well.
+    #[test]
+    fn a_slow_record_has_a_memory_of_its_own() {
+        let scale = |slowest| Scale {
+            period: 0.05,
+            slowest,
+            ..Scale::default()
+        };
+        let one: Vec<f64> = memories(&scale(0.06)).collect();
+        let two: Vec<f64> = memories(&scale(5.0)).collect();
+        assert_eq!(one, [MEMORY * 0.05]);
+        assert_eq!(two, [MEMORY * 0.05, MEMORY * 5.0]);
+        assert_eq!(RateDependentFriction.starts(&scale(0.06)).len(), 3);
+        assert_eq!(RateDependentFriction.starts(&scale(5.0)).len(), 6);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `velocity_weakening`: friction falls with the slip rate (Stribeck).
 
-use super::rate_dependent_friction::{LONGEST, MEMORY, RATE_MEMORY, follow_rate};
+use super::rate_dependent_friction::{LONGEST, RATE_MEMORY, follow_rate, memories};
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::elementary::{expm1, power};
@@ -112,10 +112,9 @@ impl Cause for VelocityWeakening {
         values[2] < LONGEST * scale.slowest
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        [0.03, 0.15, 0.6]
-            .iter()
-            .map(|share| vec![0.02, share * scale.velocity, MEMORY * scale.period, 1.0])
-            .collect()
+        let shares = [0.03, 0.15, 0.6].into_iter();
+        let with = |share| memories(scale).map(move |m| vec![0.02, share * scale.velocity, m, 1.0]);
+        shares.flat_map(with).collect()
     }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         let mut gradual = values.to_vec();

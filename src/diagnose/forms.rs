@@ -3,7 +3,7 @@
 use super::refinements::refined;
 use super::trials::{PROMISING, Trial, scored};
 use crate::causes::Scale;
-use crate::identify::{Fit, Problem, Score, refit};
+use crate::identify::{Fit, PROSPECT, Problem, Score, glanced, refit};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
 
@@ -31,6 +31,48 @@ pub(super) fn by_form<'a>(scores: &[&'a Score]) -> Vec<Vec<&'a Score>> {
         }
     }
     forms
+}
+
+/// Steps after which the starts are sorted out that leave more than others.
+const FIRST: usize = 2;
+
+/// Fits to begin with, the set's own with one of the scored shapes each, and true where they have a prospect of a
+/// misfit below `bound`; of more than `most` those that leave least after their first steps, from where these led.
+pub(super) fn starts(
+    problem: &Problem,
+    current: &Fit,
+    shapes: &[&Score],
+    (most, bound): (usize, f64),
+) -> Vec<(Fit, bool)> {
+    let with = |s: &&Score| {
+        let mut effects = current.effects.clone();
+        effects.push(s.acting.clone());
+        Fit {
+            effects,
+            ..current.clone()
+        }
+    };
+    let starts = shapes.iter().map(with);
+    if shapes.len() <= most {
+        return starts.map(|start| (start, true)).collect();
+    }
+    let glanced = |start: &Fit, steps| glanced(problem, start, start.effects.clone(), steps);
+    let starts: Vec<Fit> = starts.collect();
+    let mut led: Vec<Fit> = starts.par_iter().map(|s| glanced(s, FIRST)).collect();
+    led.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    led.truncate(most);
+    let onward = led.into_par_iter().map(|led| {
+        let next = glanced(&led, 1);
+        let prospect = next.misfit - PROSPECT * (led.misfit - next.misfit);
+        match prospect < bound {
+            true => {
+                let misfit = current.misfit;
+                (Fit { misfit, ..next }, true)
+            }
+            false => (next, false),
+        }
+    });
+    onward.collect()
 }
 
 /// Causes that were tried beside a set, each in its likeliest form that acts at another place than the one that did
@@ -65,6 +107,50 @@ pub(super) fn at_other_places(
 mod tests {
     use super::*;
     use crate::causes::find;
+    use crate::identify::{Form, baseline};
+    use crate::record::Record;
+
+    /// A hum, begun at frequencies that are more and less off.
+    #[test]
+    fn of_many_starts_those_go_on_that_lead_somewhere() {
+        let time: Vec<f64> = (0..1000).map(|i| 1e-3 * f64::from(i)).collect();
+        let force: Vec<f64> = time.iter().map(|t| 100.0 * (9.0 * t).sin()).collect();
+        let hum = |t: &f64| 1e-7 * (std::f64::consts::TAU * 50.0 * t).sin();
+        let both = force.iter().zip(&time);
+        let record = Record {
+            name: "hum".to_string(),
+            displacement: both.map(|(force, t)| 1e-8 * force + hum(t)).collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        let mut problem = Problem::new(Form::Play, &[record]);
+        problem.records[0].weight.fill(1e9);
+        let current = baseline(&problem);
+        let effect = find("mains_hum").unwrap().effect();
+        let scores = [60.0, 50.1, 54.0, 49.95].map(|frequency| Score {
+            acting: Acting {
+                effect,
+                values: vec![5e-8, 0.0, frequency, 0.0, 0.0, 0.0, 0.0],
+            },
+            fall: 1.0,
+        });
+        let shapes: Vec<&Score> = scores.iter().collect();
+        let all = starts(&problem, &current, &shapes[..2], (2, 0.0));
+        let as_given = |(fit, leads_on): &(Fit, bool)| *leads_on && fit.misfit == current.misfit;
+        assert!(all.len() == 2 && all.iter().all(as_given));
+        let best = starts(&problem, &current, &shapes, (2, 0.5 * current.misfit));
+        let frequency = |(fit, _): &(Fit, bool)| fit.effects[0].values[2];
+        assert!(best.iter().all(|one| (frequency(one) - 50.0).abs() < 0.01));
+        assert!(best.iter().all(|(_, leads_on)| *leads_on));
+        // What leads nowhere is as good as it has become.
+        let none = starts(&problem, &current, &shapes, (2, -1e3 * current.misfit));
+        assert!(none.len() == 2 && none.iter().all(|(_, leads_on)| !leads_on));
+        assert!(
+            none.iter()
+                .all(|(fit, _)| fit.misfit < 0.5 * current.misfit)
+        );
+    }
 
     /// Two shapes of one form, then the first of each other.
     #[test]

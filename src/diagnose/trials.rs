@@ -1,7 +1,7 @@
 //! Every cause tried beside a current set: scored at its vanishing size, the promising ones refitted
 //! jointly with the baseline.
 
-use super::forms::{by_form, of_other_forms};
+use super::forms::{by_form, of_other_forms, starts};
 use super::refinements::refined;
 use rayon::prelude::*;
 
@@ -136,6 +136,12 @@ pub fn trials_of(
         Effort::Quick => (LEADING, 1),
         Effort::Full => (FIRST, SHAPES),
     };
+    // A mass takes many refits, which a bound saves: it leads where its score is the highest.
+    let rings = |s: &Scored| s.1.iter().any(|s| problem.hauls(&s.acting));
+    let behind = scored.iter().skip(1).position(rings);
+    if let Some(behind) = behind.filter(|_| effort == Effort::Full) {
+        scored[1 + behind..].rotate_left(1);
+    }
     let (leading, others) = scored.split_at(leading.min(scored.len()));
     let tried = |s: &&Scored| effort == Effort::Full || s.1.iter().any(unforetold);
     let others: Vec<&Scored> = others.iter().filter(tried).collect();
@@ -165,15 +171,17 @@ pub fn trials_of(
             let bound = before
                 .as_ref()
                 .map_or(bound, |b| bound.min(b.fit.misfit + unrefined));
-            let fit = form.iter().fold(current.clone(), |best, s| {
-                let mut effects = current.effects.clone();
-                effects.push(s.acting.clone());
+            let starts = starts(problem, current, form, (SHAPES, bound)).into_iter();
+            let fit = starts.fold(current.clone(), |best, (start, leads_on)| {
                 // A second shape has to do better than the first.
                 let bound = match best.effects.len() > current.effects.len() {
                     true => bound.min(best.misfit),
                     false => bound,
                 };
-                let fit = refit_below(problem, current, effects, bound);
+                let fit = match leads_on {
+                    true => refit_below(problem, &start, start.effects.clone(), bound),
+                    false => start,
+                };
                 if fit.misfit < best.misfit { fit } else { best }
             });
             let fit = match fit.misfit < bound {

@@ -149,6 +149,18 @@ pub fn refit_below(problem: &Problem, start: &Fit, effects: Vec<Acting>, bound: 
     begin(problem, start, effects, steps)
 }
 
+/// So many steps of a refit alone, without strides: enough to tell which of several starts leads on.
+pub fn glanced(problem: &Problem, start: &Fit, effects: Vec<Acting>, count: usize) -> Fit {
+    let steps = Steps {
+        most: count,
+        longest: count,
+        strides: false,
+        before: start.misfit,
+        ..Steps::full()
+    };
+    begin(problem, start, effects, steps)
+}
+
 /// Refits with the spring in series among the unknowns where it shows, first without it.
 fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> Fit {
     let mut coefficients = start.coefficients.clone();
@@ -194,13 +206,15 @@ struct Steps {
     bound: f64,
     /// Misfit without the newest effect: a start that is worse begins smaller.
     before: f64,
+    /// Whether strides follow where the answer follows a value in small jumps.
+    strides: bool,
 }
 
 /// Steps that every refit may take: the first ones are often short.
 const FIRST: usize = 3;
 
 /// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
-const PROSPECT: f64 = 4.0;
+pub const PROSPECT: f64 = 4.0;
 
 impl Steps {
     fn full() -> Steps {
@@ -209,6 +223,7 @@ impl Steps {
             longest: LONGEST,
             bound: f64::INFINITY,
             before: f64::INFINITY,
+            strides: true,
         }
     }
 }
@@ -221,7 +236,7 @@ const WORTH_STRIDES: f64 = 1e-3;
 /// steps again.
 fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps: Steps) -> Fit {
     let fit = descend(problem, coefficients, effects, steps);
-    if fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
+    if !steps.strides || fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
         return fit;
     }
     let reached = fit.misfit;

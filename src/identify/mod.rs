@@ -40,7 +40,7 @@ mod walk;
 pub mod weighing;
 
 pub use family::{FamilyError, FamilyFit};
-pub use fit::{Fit, baseline, refit, refit_below, without};
+pub use fit::{Fit, PROSPECT, baseline, glanced, refit, refit_below, without};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use prepared::Prepared;
