@@ -7,6 +7,7 @@ mod curves;
 mod drive;
 pub mod experiment;
 pub mod findings;
+mod finely;
 mod forms;
 mod full_slip;
 pub mod gain;

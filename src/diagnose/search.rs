@@ -1,12 +1,13 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
 //! the baseline, the best set grown, its causes exchanged for better ones, and pruned.
 
+use super::finely::finely;
 use super::growing::{grown, least, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion};
-use crate::identify::{Fit, refit, smoothed};
+use crate::identify::{Fit, smoothed};
 
 /// Most causes named together.
 pub(super) const MOST: usize = 3;
@@ -48,8 +49,8 @@ pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
 
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals.
 ///
-/// A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if it explains
-/// more so.
+/// A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if they suit it
+/// better.
 pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
     let (best, first) = grown(bench, timed, &baseline, Effort::Full);
     let best = finely(bench, best);
@@ -74,25 +75,6 @@ pub fn search(bench: &mut Bench, timed: bool, baseline: Fit) -> Found {
         best,
         trials: first,
     }
-}
-
-/// Parts of a step in which a mass that was found moves with the joint, and turns in which its share of a prescribed
-/// force is taken off.
-const HAULING: (u32, usize) = (4, 12);
-
-/// The set on a bench that marches in shorter steps or more turns, where it has a mass that they suit better.
-fn finely(bench: &mut Bench, best: Fit) -> Fit {
-    if !best.effects.iter().any(|a| a.effect.follows_motion()) {
-        return best;
-    }
-    let coarse = (bench.train.hauling, bench.train.turns);
-    bench.haul(HAULING);
-    let finer = refit(&bench.train, &best, best.effects.clone());
-    if finer.misfit < best.misfit {
-        return finer;
-    }
-    bench.haul(coarse);
-    best
 }
 
 /// Exchanges causes of a set of several as long as that makes it better.
