@@ -173,9 +173,9 @@ impl Cause for Creep {
     fn needs_time(&self) -> bool {
         true
     }
-    /// An element that has settled within a sample is a spring that lags: a delay's or a dashpot's.
+    /// An element that has settled within a sample of the finest record is a spring that lags: a delay's or a dashpot's.
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
-        values[1] >= scale.step
+        values[1] >= scale.finest
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let compliance = 0.01 * scale.displacement / scale.force;
@@ -254,6 +254,19 @@ mod tests {
             Some(memory[1] * memory[1]),
             "parts that are absent store nothing",
         );
+    }
+
+    /// A slow record beside a fast one does not rule out what the fast one resolves.
+    #[test]
+    fn the_finest_record_tells_whether_creep_settles_within_a_sample() {
+        let scale = |finest| Scale {
+            step: 0.19,
+            finest,
+            ..Scale::default()
+        };
+        let values = [1e-8, 0.15, 0.0, 0.0];
+        assert!(Creep.plausible(&values, &scale(0.004)));
+        assert!(!Creep.plausible(&values, &scale(0.19)));
     }
 
     #[test]

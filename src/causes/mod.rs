@@ -81,8 +81,10 @@ pub struct Scale {
     pub period: f64,
     /// Period of the slowest record, `2π rms(U)/rms(U̇)` of its motion \[s\].
     pub slowest: f64,
-    /// Time between samples \[s\].
+    /// Time between samples, of the coarsest record \[s\].
     pub step: f64,
+    /// The same of the finest record \[s\].
+    pub finest: f64,
     /// True where the displacement drives, so that what a load cell adds shows as it is; where the force drives, a jump
     /// or a hum of its reading looks like one of the displacement's.
     pub judges_force: bool,

@@ -13,7 +13,8 @@ use crate::record::ringing::ringing;
 pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let (mut force, mut displacement, mut velocity) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut dissipation, mut path, mut step) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut dissipation, mut path) = (0.0_f64, 0.0_f64);
+    let (mut step, mut finest) = (0.0_f64, f64::INFINITY);
     let mut slowest = 0.0_f64;
     let mut first_turns: Option<(f64, f64)> = None;
     let mut tones = Vec::new();
@@ -52,6 +53,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         slowest = slowest.max(std::f64::consts::TAU / frequency);
         let own = record.steps.get(1).copied().unwrap_or(1.0);
         step = own.max(step);
+        finest = own.min(finest);
         let (_, measured) = problem.channels(k);
         let both = measured.iter().zip(&prediction.judged);
         let left: Vec<f64> = both.map(|(y, p)| y - p - first.offsets[k]).collect();
@@ -75,6 +77,7 @@ pub fn sizes(problem: &Problem, first: &Fit) -> Scale {
         period,
         slowest,
         step,
+        finest,
         judges_force: problem.operators.form == Form::Stop,
         ringing: tones,
         mains: loudest_mains(problem, first),
