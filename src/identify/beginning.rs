@@ -6,7 +6,7 @@
 //! changed over the first cycles.
 
 use super::fit::{Fit, baseline, least_misfit};
-use super::gone_on::gone_on;
+use super::gone_on::{from_reading, gone_on};
 use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::Problem;
@@ -111,6 +111,10 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let readings = problem.records.iter().map(reading).collect();
     let mut all = gone_on(problem, nearest);
     all.push(readings);
+    let (first, _) = problem.channels(0);
+    if !begins_within(OFFSET, first) {
+        all.extend(from_reading(problem, first[0]));
+    }
     all.dedup();
     all.retain(|one| one.iter().any(|b| !b.is_virgin()));
     all

@@ -51,6 +51,19 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
     }
 }
 
+/// A joint that goes on through all records, at rest where the first of them begins: one sensor's zero is off in all.
+pub(super) fn from_reading(problem: &Problem, zero: f64) -> Option<Vec<Beginning>> {
+    let mut shifted = problem.clone();
+    let form = problem.operators.form;
+    let records = shifted.records.iter_mut();
+    records.for_each(|record| record.begin(form, &Beginning::at(zero)));
+    let virgin = vec![Beginning::default(); problem.records.len()];
+    let mut all = gone_on(&shifted, virgin).into_iter();
+    let on = all.find(|one| one.iter().any(|b| b.goes_on))?;
+    let from = |begins: Beginning| Beginning { zero, ..begins };
+    Some(on.into_iter().map(from).collect())
+}
+
 /// Beginnings of records in the order of the tests, joints made `anew` for some; the first is virgin where it starts at
 /// zero, as a rule, and as it is `alone` elsewhere.
 fn in_order(problem: &Problem, alone: &[Beginning], anew: &[bool]) -> Vec<Beginning> {
@@ -193,6 +206,38 @@ mod tests {
             let off = other.iter().zip(tail).map(|(a, b)| (a - b).abs());
             assert!(off.fold(0.0, f64::max) > 1e-3 * largest);
         }
+    }
+
+    /// A load cell whose zero is off in both tests of a joint: neither a virgin joint nor one that goes on from zero.
+    #[test]
+    fn a_joint_goes_on_from_where_a_sensor_reads_no_zero() {
+        let bears = |i: usize| {
+            let largest = if i < 700 { 800.0 } else { 500.0 };
+            largest * (std::f64::consts::TAU * i as f64 / 100.0).sin()
+        };
+        let long: Vec<f64> = (0..=1200).map(bears).collect();
+        let whole = Problem::new(Form::Play, &[record(&long)]);
+        let mut joint = vec![1e-10; whole.operators.columns()];
+        joint[0] = 1e-9;
+        let answer = &whole.predict(&joint, &[])[0].judged;
+        let part = |places: std::ops::RangeInclusive<usize>| {
+            let read: Vec<f64> = long[places.clone()].iter().map(|f| f + 20.0).collect();
+            let mut part = record(&read);
+            part.displacement = answer[places].to_vec();
+            part
+        };
+        let problem = Problem::new(Form::Play, &[part(0..=700), part(700..=1200)]);
+        let found = from_reading(&problem, 20.0).unwrap();
+        assert_eq!(found[0], Beginning::at(20.0));
+        assert!(found[1].goes_on && found[1].zero == 20.0);
+        let left = |beginnings: &[Beginning]| {
+            let mut begun = problem.clone();
+            for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
+                record.begin(Form::Play, beginning);
+            }
+            least_misfit(&begun)
+        };
+        assert!(left(&found) < 0.1 * left(&[Beginning::at(20.0), Beginning::at(20.0)]));
     }
 
     #[test]
