@@ -123,6 +123,7 @@ fn scale() -> Scale {
         first_turns: (0.0, 0.0),
         slowest: 2.0 * LEG as f64 * STEP,
         step: STEP,
+        finest: STEP,
         judges_force: true,
         ringing: vec![],
         mains: vec![],

@@ -142,6 +142,7 @@ fn effects() -> Vec<Acting> {
         first_turns: (0.0, 0.0),
         slowest: 0.02,
         step: STEP,
+        finest: STEP,
         judges_force: true,
         ringing: vec![],
         mains: vec![],

@@ -18,6 +18,7 @@ fn causes() -> Vec<(&'static str, String)> {
         first_turns: (0.0, 0.0),
         slowest: 0.02,
         step: 1e-3,
+        finest: 1e-3,
         judges_force: true,
         ringing: vec![],
         mains: vec![],
