@@ -49,10 +49,11 @@ fn one(problem: &Problem, whole: &Fit, k: usize) -> LeftOut {
     // Loads beyond those of the others meet cells that no sample tells: smoothed, a density goes on into them.
     let plain = smoothed(&others, &baseline(&others));
     let before = squares(problem, &plain, k);
-    let extended = told(&others, refit(&others, whole, whole.effects.clone()));
-    let after = match extended.effects.is_empty() {
-        true => before.clone(),
-        false => squares(problem, &smoothed(&others, &extended), k),
+    let extended = || told(&others, refit(&others, whole, whole.effects.clone()));
+    let named = (!whole.effects.is_empty()).then(extended);
+    let after = match named.filter(|fit| !fit.effects.is_empty()) {
+        None => before.clone(),
+        Some(fit) => squares(problem, &smoothed(&others, &fit), k),
     };
     let blocks: Vec<(f64, f64)> = before.iter().copied().zip(after.iter().copied()).collect();
     let samples = problem.records[k].time.len().max(1) as f64;

@@ -20,13 +20,7 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
     if problem.records.len() < 2 {
         return vec![nearest];
     }
-    let left = |beginnings: &[Beginning]| {
-        let mut begun = problem.clone();
-        for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
-            record.begin(problem.operators.form, beginning);
-        }
-        least_misfit(&begun)
-    };
+    let left = |beginnings: &[Beginning]| least_misfit(&begun(problem, beginnings));
     let samples = problem.rows();
     let mut anew = vec![false; problem.records.len()];
     let mut on = in_order(problem, &nearest, &anew);
@@ -53,15 +47,21 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
 
 /// A joint that goes on through all records, at rest where the first of them begins: one sensor's zero is off in all.
 pub(super) fn from_reading(problem: &Problem, zero: f64) -> Option<Vec<Beginning>> {
-    let mut shifted = problem.clone();
-    let form = problem.operators.form;
-    let records = shifted.records.iter_mut();
-    records.for_each(|record| record.begin(form, &Beginning::at(zero)));
+    let shifted = begun(problem, &vec![Beginning::at(zero); problem.records.len()]);
     let virgin = vec![Beginning::default(); problem.records.len()];
     let mut all = gone_on(&shifted, virgin).into_iter();
     let on = all.find(|one| one.iter().any(|b| b.goes_on))?;
     let from = |begins: Beginning| Beginning { zero, ..begins };
     Some(on.into_iter().map(from).collect())
+}
+
+/// Records of virgin joints, with other beginnings.
+fn begun(problem: &Problem, beginnings: &[Beginning]) -> Problem {
+    let mut begun = problem.clone();
+    for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
+        record.begin(problem.operators.form, beginning);
+    }
+    begun
 }
 
 /// Beginnings of records in the order of the tests, joints made `anew` for some; the first is virgin where it starts at
@@ -177,12 +177,10 @@ mod tests {
         let (before, after) = (&long[..=700], &long[700..]);
         let whole = Problem::new(Form::Play, &[record(&long)]);
         let records = [record(before), record(after)];
-        let mut parted = Problem::new(Form::Play, &records);
+        let parted = Problem::new(Form::Play, &records);
         let virgin = vec![Beginning::default(); 2];
         let on = in_order(&parted, &virgin, &[false; 2]);
-        for (record, beginning) in parted.records.iter_mut().zip(&on) {
-            record.begin(Form::Play, beginning);
-        }
+        let mut parted = begun(&parted, &on);
         parted.wears_on = true;
         let mut joint = vec![1e-10; whole.operators.columns()];
         joint[0] = 1e-9;
@@ -230,13 +228,7 @@ mod tests {
         let found = from_reading(&problem, 20.0).unwrap();
         assert_eq!(found[0], Beginning::at(20.0));
         assert!(found[1].goes_on && found[1].zero == 20.0);
-        let left = |beginnings: &[Beginning]| {
-            let mut begun = problem.clone();
-            for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
-                record.begin(Form::Play, beginning);
-            }
-            least_misfit(&begun)
-        };
+        let left = |beginnings: &[Beginning]| least_misfit(&begun(&problem, beginnings));
         assert!(left(&found) < 0.1 * left(&[Beginning::at(20.0), Beginning::at(20.0)]));
     }
 
