@@ -10,6 +10,7 @@ pub mod peaks;
 pub mod repeats;
 pub mod resolution;
 pub mod ringing;
+mod rounded;
 mod spectrum;
 pub mod split;
 pub mod thinned;

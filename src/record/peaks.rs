@@ -1,6 +1,7 @@
 //! What an input does between its samples: peaks that fall there, kinks where its rate jumps.
 
 use super::cycles::turning_points;
+use super::rounded::vertex;
 
 /// A point of the input between two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,14 +63,20 @@ const CORNER: f64 = 0.1;
 /// Median bends of a channel that a kink exceeds.
 const SHARP: f64 = 10.0;
 
+/// Share of the bends next to a turn, over those at it, below which it is a rounded tip between straight flanks.
+const ROUNDED: f64 = 0.5;
+
+/// Share below which bends next to a turn are rounding of numbers.
+const STRAIGHT: f64 = 1e-4;
+
 /// Bends of the stretches by which their lines may go astray where they meet.
 const ASTRAY: f64 = 3.0;
 
 /// Share of a step within which a peak counts as sampled.
 const SAMPLED: f64 = 1e-3;
 
-/// Finds the kinks where straight stretches meet (a triangle's tip, the end of a ramp), and the peaks of
-/// smooth turns: the vertex of the parabola through the three samples about a turning point.
+/// Finds the kinks where straight stretches meet (a triangle's tip, the end of a ramp), and the peaks of turns: of
+/// rounded tips the vertex of a hyperbola, of smooth turns that of the parabola through three samples.
 ///
 /// A joint remembers how far it was driven: a peak missed by 10⁻³ of it leaves its whole way back
 /// wrong by as much.
@@ -83,21 +90,33 @@ pub fn between(time: &[f64], channel: &[f64]) -> Between {
         ahead: (1.0 - within) * (time[left + 1] - time[left]),
         value,
     };
-    let mut cornered = vec![false; channel.len()];
-    for left in corners(channel) {
-        cornered[left] = true;
-        cornered[left + 1] = true;
+    let turns = turning_points(channel, BAND);
+    let usual = usual_bend(channel);
+    let mut known = vec![false; channel.len()];
+    for left in turns.iter().flat_map(|&turn| [turn.wrapping_sub(1), turn]) {
+        if is_rounded(channel, left, usual)
+            && let Some((within, value)) = vertex(channel, left)
+        {
+            found.peaks.push(place(left, within, value));
+            known[left..=left + 1].fill(true);
+        }
+    }
+    for left in corners(channel, usual) {
+        let tip = known[left] || known[left + 1];
+        known[left..=left + 1].fill(true);
         match meeting(channel, left) {
             Meeting::Between(within, value) => {
-                found.peaks.push(place(left, within, value));
+                if !tip {
+                    found.peaks.push(place(left, within, value));
+                }
                 found.kinks.push(left + 1);
             }
             Meeting::Sampled(at) => found.kinks.push(at + 1),
             Meeting::Nowhere => found.kinks.extend([left + 1, left + 2]),
         }
     }
-    for turn in turning_points(channel, BAND) {
-        if turn < 1 || turn + 1 >= channel.len() || cornered[turn] || rests(channel, turn) {
+    for turn in turns {
+        if turn < 1 || turn + 1 >= channel.len() || known[turn] || rests(channel, turn) {
             continue;
         }
         let rise = 0.5 * (channel[turn + 1] - channel[turn - 1]);
@@ -134,17 +153,39 @@ fn bend(channel: &[f64], i: usize) -> f64 {
     channel[i - 1] - 2.0 * channel[i] + channel[i + 1]
 }
 
-/// First samples of the intervals in or next to which two straight stretches meet.
-fn corners(channel: &[f64]) -> Vec<usize> {
-    let bend = |i: usize| bend(channel, i);
-    let mut all: Vec<f64> = (1..channel.len() - 1).map(|i| bend(i).abs()).collect();
+/// Median of a channel's bends.
+fn usual_bend(channel: &[f64]) -> f64 {
+    let mut all: Vec<f64> = (1..channel.len() - 1)
+        .map(|i| bend(channel, i).abs())
+        .collect();
     let middle = all.len() / 2;
-    let usual = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
+    *all.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// First samples of the intervals in or next to which two straight stretches meet.
+fn corners(channel: &[f64], usual: f64) -> Vec<usize> {
+    let bend = |i: usize| bend(channel, i);
     let both = |i: usize| (bend(i) + bend(i + 1)).abs();
     (2..channel.len() - 3)
         .filter(|&i| both(i) > SHARP * usual && both(i) >= both(i - 1).max(both(i + 1)))
         .filter(|&i| bend(i - 1).abs() + bend(i + 2).abs() < CORNER * both(i))
         .collect()
+}
+
+/// True where a tip is as sharp as a corner, but turns the same way beside its interval as well, by more than usual.
+fn is_rounded(channel: &[f64], left: usize, usual: f64) -> bool {
+    if left < 2 || left > channel.len().saturating_sub(4) {
+        return false;
+    }
+    let [before, start, end, behind] =
+        [left - 1, left, left + 1, left + 2].map(|i| bend(channel, i));
+    let both = start + end;
+    let beside = (before + behind).abs();
+    both.abs() > SHARP * usual
+        && before * both >= 0.0
+        && behind * both >= 0.0
+        && beside < ROUNDED * both.abs()
+        && beside > (2.0 * ASTRAY * usual).max(STRAIGHT * both.abs())
 }
 
 /// Where the straight stretches about an interval meet.
@@ -221,6 +262,25 @@ mod tests {
                 assert!((peak.value.abs() - 1.0).abs() < off, "{peak:?}");
                 assert!(peak.ahead > 0.0 && peak.ahead < 0.0167, "{peak:?}");
             }
+        }
+    }
+
+    /// asin(r·sin) is a triangle rounded over 0.14 rad, 1.4 samples of these 60 a cycle: lines meet 1.3 % beyond its
+    /// tip, parabolas 0.1 % off it.
+    #[test]
+    fn rounded_tips_of_triangles_are_found_between_samples() {
+        let tip = 0.99_f64.asin();
+        let rounded =
+            |t: f64| (0.99 * (std::f64::consts::TAU * t).sin()).asin() / tip * (1.0 + 0.02 * t);
+        let (time, channel) = sampled(rounded);
+        let peaks = between(&time, &channel).peaks;
+        assert!((17..=21).contains(&peaks.len()), "{}", peaks.len());
+        for peak in &peaks {
+            let at = time[peak.before] - peak.ahead;
+            assert!(
+                (peak.value.abs() - (1.0 + 0.02 * at)).abs() < 2e-4,
+                "{peak:?}"
+            );
         }
     }
 
