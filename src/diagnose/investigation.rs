@@ -205,6 +205,10 @@ impl Investigation {
     /// True where other beginnings leave less beside the causes that were found, or no more beside fewer, until
     /// the first turns are known better on samples that do not hang on them.
     fn may_be_beaten_by(&self, other: &Bench) -> bool {
+        let sought = |train: &Problem| -> usize {
+            let records = train.records.iter();
+            records.map(|r| r.beginning.values()).sum()
+        };
         let weighed = |bench: &Bench| {
             let mut bench = bench.clone();
             bench.unsure.clone_from(&other.unsure);
@@ -225,8 +229,14 @@ impl Investigation {
             effects.remove(drop);
             beside(effects) < reached + margin
         };
-        // One of several causes may do what the beginning is wrong by, or one cause another's work.
-        let several = best.effects.len() > 1;
+        // One of several causes may do what the beginning is wrong by, or one cause another's work; so may turns that
+        // were sought, beside one cause with more values than the right one has, or in the place of a second.
+        let sought = !best.effects.is_empty() && sought(&train) > sought(&other);
+        let structure = leaves_structure(&train, best);
+        if sought && structure {
+            return true;
+        }
+        let several = best.effects.len() > 1 || sought;
         let wanted = if several {
             reached + margin
         } else {
@@ -243,8 +253,8 @@ impl Investigation {
         };
         plain.misfit < reached + margin
             || beside(best.effects.clone()) < reached - taken
-            || several && (0..best.effects.len()).any(fewer)
-            || (several || leaves_structure(&train, best)) && one_alone()
+            || best.effects.len() > 1 && (0..best.effects.len()).any(fewer)
+            || (several || structure) && one_alone()
     }
 
     /// True where wear that goes on from record to record explains what wear of joints made new between them does
