@@ -132,3 +132,22 @@ fn a_struck_sample_leaves_its_neighbours_alone() {
     let (untouched, overwritten) = (misfit(0.0), misfit(1e-5));
     assert!((overwritten / untouched - 1.0).abs() < 1e-9);
 }
+
+/// An amplifier that was not ready for its first sample: that alone is off, and no transient is.
+#[test]
+fn a_first_or_last_sample_alone_is_found_and_no_transient_is() {
+    let mut random = ChaCha8Rng::seed_from_u64(17);
+    let noise: Vec<f64> = (0..2000).map(|_| normal(&mut random)).collect();
+    let found = |channel: &[f64], neighbours| -> Vec<usize> {
+        outliers(channel, neighbours).iter().map(|o| o.0).collect()
+    };
+    let mut ends = noise.clone();
+    ends[0] -= 300.0;
+    ends[1999] += 40.0;
+    assert_eq!(found(&ends, Neighbours::Level), [0, 1999]);
+    // What a channel does as it begins is not judged before a model has followed it.
+    assert_eq!(found(&ends, Neighbours::Line), [0; 0]);
+    let decaying = |(i, x): (usize, &f64)| x + 300.0 * (-(i as f64) / 2.0).exp();
+    let transient: Vec<f64> = noise.iter().enumerate().map(decaying).collect();
+    assert_eq!(found(&transient, Neighbours::Level), [0; 0]);
+}

@@ -97,7 +97,7 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
     let largest = channel.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let rounding = ROUNDING * largest;
     let usual = typical(deviations.iter().map(|d| d.abs()).collect());
-    let found: Vec<(usize, f64)> = (0..deviations.len())
+    let mut found: Vec<(usize, f64)> = (0..deviations.len())
         .filter(|&k| deviations[k].abs() > (ALONE * usual).max(rounding))
         // Where the sides differ by more than the sample does from one of them, that side holds it:
         // next to the tip of a noiseless triangle its own side is off by rounding only.
@@ -121,10 +121,27 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
         })
         .map(|k| (k + reach, 0.5 * (sides[k].0 + sides[k].1)))
         .collect();
+    if neighbours == Neighbours::Level {
+        let first = lonely_end(|i| channel[i]);
+        let last = lonely_end(|i| channel[count - 1 - i]);
+        let ends = [(0, first), (count - 1, last)];
+        let beyond = |(i, level): &(usize, f64)| (channel[*i] - level).abs() > ALONE * usual;
+        let both = ends.map(|(i, level)| level.map(|level| (i, level)));
+        found.extend(both.into_iter().flatten().filter(beyond));
+    }
     match found.len() as f64 > FEW * count as f64 {
         true => Vec::new(),
         false => found,
     }
+}
+
+/// Level that a record comes to at once behind its first sample (or before its last), where that alone is elsewhere: an
+/// amplifier that was not ready yet. None where others about it deviate too, as a transient's do.
+fn lonely_end(at: impl Fn(usize) -> f64) -> Option<f64> {
+    let beside: Vec<f64> = (1..=2 * AROUND).map(&at).collect();
+    let level = quantile(beside.clone(), 0.5);
+    let farthest = beside.iter().map(|x| (x - level).abs()).fold(0.0, f64::max);
+    ((at(0) - level).abs() > 0.5 * ALONE * farthest).then_some(level)
 }
 
 /// Value at the judged sample from those of one side, the nearest first.
