@@ -503,7 +503,7 @@ fn text_has_the_verdict_first_and_fits_a_screen() {
         "The error on unseen data falls by 71 %.",
         "122 nm → 35.0 nm, ratio 0.287 (95 %: 0.250 … 0.331)",
         "Energy per cycle off by 9.2 % before, 1.1 % after.",
-        "2.0 % of the explainable misfit is left.",
+        "2.0 % of the explainable misfit is left beyond what noise may leave.",
         "4.12 kN  ± 0.19 kN (4.6 %)",
         "Rate effects: all cycles have one frequency.",
         "Ten cycles at 14 µm",

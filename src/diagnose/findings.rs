@@ -146,7 +146,7 @@ pub struct RecordCurves {
 /// What remains and where.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Unexplained {
-    /// Share of the explainable misfit that is left, 0 … 1.
+    /// Share of the explainable misfit that is left, 0 … 1; of an explained record, beyond what noise may leave.
     pub share: f64,
     /// Places in words, e.g. `record bolt-2, cycles 14–20, just after reversals`.
     pub places: Vec<String>,

@@ -202,6 +202,8 @@ fn assemble(
         Verdict::Clean => (0.0, 0.0),
         // Nothing takes any of it away, however random it looks.
         Verdict::Unexplained if !named => (1.0, 1.0),
+        // Who says that noise alone is left counts no share of it as more.
+        Verdict::Explained => (beyond_noise, beyond_noise),
         _ => (left, beyond_noise),
     };
     let candidates = catalogue::candidates(bench, &found, &before, beyond_noise);

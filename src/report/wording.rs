@@ -204,8 +204,12 @@ pub(super) fn rest_sentence(findings: &Findings) -> String {
     if findings.verdict == Verdict::Clean {
         return "Nothing beyond the noise.".to_owned();
     }
+    let beyond = match findings.verdict {
+        Verdict::Explained => " beyond what noise may leave",
+        _ => "",
+    };
     format!(
-        "{} of the explainable misfit is left.",
+        "{} of the explainable misfit is left{beyond}.",
         share(findings.unexplained.share)
     )
 }
