@@ -43,6 +43,9 @@ static PARAMETERS: [Parameter; 3] = [
     },
 ];
 
+/// Samples of the finest record within which no drift comes to rest: what does is a zero that was off, or a jump.
+const AT_ONCE: f64 = 5.0;
+
 /// Integral of the rate that is left of 1, `(1 + q λ t)^(−1/q)`.
 fn gone(time: f64, fading: f64, tail: f64) -> f64 {
     if fading <= 0.0 {
@@ -99,6 +102,11 @@ impl Cause for DisplacementDrift {
     fn needs_time(&self) -> bool {
         true
     }
+    fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        // Logarithm and root never come to rest.
+        let comes_to_rest = values[1] * (1.0 - values[2]);
+        comes_to_rest * AT_ONCE * scale.finest <= 1.0
+    }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let rate = 0.01 * scale.displacement / scale.duration();
         let as_a_root = vec![10.0 * rate, 100.0 / scale.duration(), 2.0];
@@ -134,6 +142,18 @@ mod tests {
         let slowly =
             DisplacementDrift.channel(&[0.5, 1e-9, 0.0], Place::DisplacementChannel, &truth);
         assert!((slowly[2] - 1.5).abs() < 1e-8);
+    }
+
+    #[test]
+    fn what_comes_to_rest_at_once_is_no_drift() {
+        let scale = Scale {
+            finest: 0.01,
+            ..Scale::default()
+        };
+        let plausible =
+            |fading: f64, tail: f64| DisplacementDrift.plausible(&[-0.1, fading, tail], &scale);
+        assert!(plausible(0.0, 0.0) && plausible(10.0, 0.0) && plausible(1e7, 2.0));
+        assert!(!plausible(100.0, 0.0) && !plausible(1e7, 0.7));
     }
 
     #[test]

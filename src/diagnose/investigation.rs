@@ -5,7 +5,7 @@ use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::{Bench, form, prepare};
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, dispersion, trials_of};
-use crate::causes::Cause;
+use crate::causes::{Cause, find};
 use crate::identify::beginning::{Beginning, at_zero, beginnings, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
@@ -296,12 +296,11 @@ impl Investigation {
         }
         self.bench.unsure.fill(0);
         self.bench.weigh(self.bench.noise.clone());
-        for _ in 0..ROUNDS {
-            for k in 0..self.bench.train.records.len() {
-                self.sharpen(k);
-            }
-            let best = &self.found.best;
-            self.found.best = refit(&self.bench.train, best, best.effects.clone());
+        self.settle();
+        // Turns that were sought with fewer samples may have left a cause only what they were wrong by.
+        while let Some(place) = self.implausible() {
+            self.found.best = without(&self.bench.train, &self.found.best, place);
+            self.settle();
         }
         self.found.baseline = baseline(&self.bench.train);
         if self.found.best.effects.is_empty() {
@@ -309,6 +308,25 @@ impl Investigation {
         }
         self.bench.weigh_what_is_left(&self.found.best);
         self
+    }
+
+    /// Turns and joint fitted to each other.
+    fn settle(&mut self) {
+        for _ in 0..ROUNDS {
+            for k in 0..self.bench.train.records.len() {
+                self.sharpen(k);
+            }
+            let best = &self.found.best;
+            self.found.best = refit(&self.bench.train, best, best.effects.clone());
+        }
+    }
+
+    /// Place of a named cause whose values have become another's.
+    fn implausible(&self) -> Option<usize> {
+        let scale = &self.bench.scale;
+        let told = |a: &Acting| find(a.effect.name()).is_none_or(|c| c.plausible(&a.values, scale));
+        let mut effects = self.found.best.effects.iter();
+        effects.position(|a| !told(a))
     }
 
     fn sharpen(&mut self, k: usize) {
