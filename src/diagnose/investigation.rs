@@ -4,8 +4,8 @@
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::{Bench, form, prepare};
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, Effort, dispersion, trials_of};
-use crate::causes::{Cause, find};
+use super::trials::{ALARM, Effort, dispersion, implausible, trials_of};
+use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, at_zero, beginnings, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
@@ -298,7 +298,7 @@ impl Investigation {
         self.bench.weigh(self.bench.noise.clone());
         self.settle();
         // Turns that were sought with fewer samples may have left a cause only what they were wrong by.
-        while let Some(place) = self.implausible() {
+        while let Some(place) = implausible(&self.bench.scale, &self.found.best) {
             self.found.best = without(&self.bench.train, &self.found.best, place);
             self.settle();
         }
@@ -319,14 +319,6 @@ impl Investigation {
             let best = &self.found.best;
             self.found.best = refit(&self.bench.train, best, best.effects.clone());
         }
-    }
-
-    /// Place of a named cause whose values have become another's.
-    fn implausible(&self) -> Option<usize> {
-        let scale = &self.bench.scale;
-        let told = |a: &Acting| find(a.effect.name()).is_none_or(|c| c.plausible(&a.values, scale));
-        let mut effects = self.found.best.effects.iter();
-        effects.position(|a| !told(a))
     }
 
     fn sharpen(&mut self, k: usize) {

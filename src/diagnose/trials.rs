@@ -252,9 +252,14 @@ pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
 
 /// True where no cause of a set has values that are another cause's.
 pub fn all_plausible(scale: &Scale, fit: &Fit) -> bool {
+    implausible(scale, fit).is_none()
+}
+
+/// Place in a set of the first cause that has values of another.
+pub fn implausible(scale: &Scale, fit: &Fit) -> Option<usize> {
     let plausible =
         |a: &Acting| find(a.effect.name()).is_none_or(|c| c.plausible(&a.values, scale));
-    fit.effects.iter().all(plausible)
+    fit.effects.iter().position(|a| !plausible(a))
 }
 
 pub(super) type Scored = (&'static dyn Cause, Vec<Score>);

@@ -1,5 +1,7 @@
 //! Tips of triangles that a generator or a servo rounds within a step or two of the samples.
 
+use super::cycles::span;
+
 /// Coefficients of y² + A·y·t + B·t² + C·y + D·t + F = 0.
 const TERMS: usize = 5;
 
@@ -11,7 +13,7 @@ const TERMS: usize = 5;
 pub fn vertex(channel: &[f64], left: usize) -> Option<(f64, f64)> {
     let about = channel.get(left.checked_sub(2)?..left + 4)?;
     let least = about.iter().copied().fold(f64::INFINITY, f64::min);
-    let span = about.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least;
+    let span = span(about);
     let mut equations = [[0.0; TERMS + 1]; TERMS];
     for (i, value) in about.iter().enumerate() {
         let (t, y) = (i as f64 - 2.5, (value - least) / span);
