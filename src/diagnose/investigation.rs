@@ -189,7 +189,7 @@ impl Investigation {
     }
 
     /// χ² per degree of freedom of what was found, at least one.
-    fn dispersion(&self) -> f64 {
+    pub(super) fn dispersion(&self) -> f64 {
         dispersion(&self.bench.train, &self.found.best)
     }
 
@@ -365,7 +365,7 @@ impl Investigation {
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
     /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
     /// whether wear goes on; every cause is as unlikely as what is against the rule.
-    fn unlikeliness(&self, dispersion: f64) -> f64 {
+    pub(super) fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let weights = train.records.iter().flat_map(|r| &r.weight);

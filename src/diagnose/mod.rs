@@ -5,6 +5,7 @@ pub mod bootstrap;
 mod catalogue;
 mod curves;
 mod drive;
+mod driven;
 pub mod experiment;
 pub mod findings;
 mod finely;

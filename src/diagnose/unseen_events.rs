@@ -1,7 +1,8 @@
 //! Records in which something happens within the samples set aside: those are given to the fit, others set aside, and
 //! the records searched again.
 
-use super::investigation::{Investigation, however_worn, searched};
+use super::driven::however_driven;
+use super::investigation::{Investigation, searched};
 use super::places::scatter;
 use super::prepare::Bench;
 use super::tested::each_unseen;
@@ -49,7 +50,7 @@ pub fn investigated(
     timed: bool,
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    let first = however_worn(records, timed, progress);
+    let first = however_driven(records, timed, progress);
     let news = news(&first.bench, &first.found.best);
     if !news.end && !news.middle {
         return first;

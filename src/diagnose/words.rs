@@ -143,6 +143,9 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if bench.fitted.end {
         notes.push("The last cycles showed what no earlier one did: the fit was given them to find out why, and the gain is measured on cycles before them.".to_string());
     }
+    if bench.whole.records.iter().any(|r| r.between.straight) {
+        notes.push("The drive was taken to go straight from sample to sample, as one does that a program made: turns between samples, as a measured one has, leave more.".to_string());
+    }
     if bench.whole.wears_on {
         notes.push("Wear goes on from record to record: they were taken for tests of one joint after the other, in the order given.".to_string());
     }

@@ -3,7 +3,8 @@
 use crate::joint::course::{Corner, Course};
 use crate::joint::effect::{Acting, Place};
 use crate::joint::passed::Passed;
-use crate::record::peaks::{Between, Peak, is_between};
+use crate::record::cycles::turning_points;
+use crate::record::peaks::{BAND, Between, Peak, is_between};
 
 /// Time by which the displacement comes late; `None` where something else acts on it as well.
 pub(super) fn lateness(effects: &[Acting]) -> Option<f64> {
@@ -60,6 +61,13 @@ pub(super) fn read_ahead(
     for corner in &corners {
         put(corner.time - late, corner.value, true);
     }
+    if between.straight {
+        // It turned at samples, and what came late turned between them.
+        for turn in turning_points(measured, BAND) {
+            put(time[turn] - late, measured[turn], false);
+        }
+    }
+    found.straight = between.straight;
     (input, found.in_order())
 }
 
@@ -102,6 +110,7 @@ mod tests {
             preload: None,
             temperature: None,
             acceleration: None,
+            straight: false,
         };
         Prepared::new(&record, Form::Stop)
     }

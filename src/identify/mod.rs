@@ -5,6 +5,7 @@
 pub mod beginning;
 mod bonds;
 mod bracket;
+mod driven;
 pub mod exported;
 pub mod family;
 pub mod fewer;
@@ -39,6 +40,7 @@ mod undone;
 mod walk;
 pub mod weighing;
 
+pub use driven::as_driven;
 pub use family::{FamilyError, FamilyFit};
 pub use fit::{Fit, PROSPECT, baseline, glanced, refit, refit_below, without};
 pub use interval::Estimated;

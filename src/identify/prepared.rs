@@ -3,7 +3,7 @@
 use super::beginning::Beginning;
 use super::operators::Form;
 use crate::record::Record;
-use crate::record::peaks::{Between, between};
+use crate::record::peaks::Between;
 
 /// One record as the fit sees it.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,10 @@ impl Prepared {
         }
         let mut prepared = Prepared {
             name: record.name.clone(),
-            between: Between::default(),
+            between: Between {
+                straight: record.straight,
+                ..Between::default()
+            },
             steps,
             force: record.force.clone(),
             displacement: record.displacement.clone(),
@@ -53,7 +56,7 @@ impl Prepared {
 
     /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
     pub fn look_between(&mut self, form: Form) {
-        self.between = between(&self.time, self.channels(form).0);
+        self.between = self.between.anew(&self.time, self.channels(form).0);
     }
 
     /// The record with another beginning than a virgin joint's; its input counts from the zero of that.

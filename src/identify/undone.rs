@@ -5,7 +5,7 @@ use super::march::added;
 use super::operators::Form;
 use super::prepared::Prepared;
 use crate::joint::effect::{Acting, Trajectory};
-use crate::record::peaks::{Between, between};
+use crate::record::peaks::Between;
 
 /// Rounds in which what a sensor added to the displacement is taken off, at most.
 const MOST_ROUNDS: usize = 8;
@@ -93,7 +93,7 @@ pub(super) fn corrected(
 ) -> (Vec<f64>, Between) {
     let input: Vec<f64> = measured.iter().zip(added).map(|(m, a)| m - a).collect();
     if !found.thinned {
-        let found = between(time, &input);
+        let found = found.anew(time, &input);
         return (input, found);
     }
     let mut moved = found.clone();
@@ -106,6 +106,7 @@ pub(super) fn corrected(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::peaks::between;
 
     /// A sine with hum of a hundredth of it, sampled a hundred times a cycle: without the hum its tips are where
     /// they were; moved with their neighbours they are off by a good part of it.

@@ -72,6 +72,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
             preload: numbers.take(Quantity::Preload),
             temperature: numbers.take(Quantity::Temperature),
             acceleration: numbers.take(Quantity::Acceleration),
+            straight: false,
         })
     } else if is_table {
         let required = [Quantity::ForceAmplitude, Quantity::Dissipation];

@@ -33,6 +33,9 @@ pub struct Record {
     pub temperature: Option<Vec<f64>>,
     /// Acceleration \[m/s²\], where measured.
     pub acceleration: Option<Vec<f64>>,
+    /// True where the driving channel goes straight from sample to sample and turns at samples alone, as one does that
+    /// a program made; false of a measured one, whose tips fall between them.
+    pub straight: bool,
 }
 
 impl Record {

@@ -23,9 +23,21 @@ pub struct Between {
     pub kinks: Vec<usize>,
     /// True where samples were taken out since they were found: those that are left do not show them.
     pub thinned: bool,
+    /// True where the input goes straight from sample to sample: it has no peaks between them.
+    pub straight: bool,
 }
 
 impl Between {
+    /// What the samples do not show once they were changed.
+    pub fn anew(&self, time: &[f64], channel: &[f64]) -> Between {
+        let mut found = between(time, channel);
+        if self.straight {
+            found.peaks.clear();
+            found.straight = true;
+        }
+        found
+    }
+
     /// The same in order, at most one of a kind per interval.
     pub fn in_order(mut self) -> Between {
         self.peaks.sort_by_key(|peak| peak.before);
@@ -55,7 +67,7 @@ impl Between {
 }
 
 /// Wiggles below this share of the channel's range are no turning points.
-const BAND: f64 = 0.005;
+pub const BAND: f64 = 0.005;
 
 /// Share of the bends next to a kink, over those at it, below which two straight stretches meet.
 const CORNER: f64 = 0.1;

@@ -37,6 +37,7 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
         preload: optional(&record.preload),
         temperature: optional(&record.temperature),
         acceleration: optional(&record.acceleration),
+        straight: record.straight,
     })
 }
 
