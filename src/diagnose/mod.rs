@@ -53,6 +53,7 @@ use crate::identify::{Fit, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
 use crate::record::Record;
 use crate::record::noise::independence;
+use crate::record::outliers::struck_out;
 use crate::record::thinned::thinned;
 
 /// Diagnoses the records of one joint.
@@ -79,7 +80,8 @@ pub fn diagnose_with(
     let all: usize = records.iter().map(Record::len).sum();
     let thin: Vec<Record> = records
         .iter()
-        .map(|r| thinned(r, MANY * r.len() / all.max(1)).unwrap_or_else(|| r.clone()))
+        .map(struck_out)
+        .map(|r| thinned(&r, MANY * r.len() / all.max(1)).unwrap_or(r))
         .collect();
     let records = thin.as_slice();
     let used: usize = records.iter().map(Record::len).sum();

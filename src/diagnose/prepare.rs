@@ -3,7 +3,7 @@
 use super::gridded::{fitted, resolve};
 use super::mains_phase;
 use super::sizes::sizes;
-use super::striking::{strike_channels, strike_residuals};
+use super::striking::strike_residuals;
 use crate::causes::Scale;
 use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
@@ -140,10 +140,13 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 
 /// Prepares records with their beginnings in a form: first unweighted baseline, noise, weights, marks.
 pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Bench {
-    let mut problem = Problem::begun(form, records, beginnings);
-    let mut struck: Vec<Vec<bool>> = records.iter().map(|r| vec![false; r.len()]).collect();
-    strike_channels(&mut problem, &mut struck);
-    let (mut whole, mut first) = fitted(problem);
+    let (mut whole, mut first) = fitted(Problem::begun(form, records, beginnings));
+    let marks = |record: &Record| {
+        let mut struck = vec![false; record.len()];
+        record.alone.iter().for_each(|&i| struck[i] = true);
+        struck
+    };
+    let mut struck: Vec<Vec<bool>> = records.iter().map(marks).collect();
     if strike_residuals(&mut whole, &first, &mut struck) {
         first = baseline(&whole);
     }

@@ -1,25 +1,7 @@
-//! Samples that stand alone, struck out before anything is fitted to them.
+//! Samples that stand alone in what the baseline leaves, struck out before any cause is fitted to them.
 
 use crate::identify::{Fit, Form, Problem};
 use crate::record::outliers::{Neighbours, outliers, scattered};
-
-/// Strikes out what stands alone in a channel: a spike of the input would send the model's memory
-/// elsewhere for good.
-pub(super) fn strike_channels(problem: &mut Problem, struck: &mut [Vec<bool>]) {
-    let form = problem.operators.form;
-    for (record, struck) in problem.records.iter_mut().zip(struck) {
-        for channel in [&mut record.force, &mut record.displacement] {
-            for (i, instead) in outliers(channel, Neighbours::Line) {
-                channel[i] = instead;
-                struck[i] = true;
-                record.weight[i] = 0.0;
-            }
-        }
-        if struck.contains(&true) {
-            record.look_between(form);
-        }
-    }
-}
 
 /// Strikes out samples of the judged channel that stand alone in what the baseline leaves; true
 /// where there are any.

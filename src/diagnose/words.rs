@@ -5,6 +5,7 @@ use super::prepare::{Bench, compliance_ratio};
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
 use crate::record::Record;
+use crate::record::outliers::stand_alone;
 use crate::record::resolution::step;
 use crate::record::written::quantity;
 
@@ -156,11 +157,7 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     {
         let count = struck.iter().filter(|s| **s).count();
         if count > 0 {
-            notes.push(format!(
-                "Record {}: {count} of {} samples stand alone against their neighbours on both sides and were left out.",
-                record.name,
-                record.len()
-            ));
+            notes.push(stand_alone(&record.name, count, record.len()));
         }
         notes.extend(begins(
             record,

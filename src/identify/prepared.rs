@@ -29,7 +29,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Every sample with unit weight, white.
+    /// Every sample with unit weight, white; those that stood alone with none.
     pub fn new(record: &Record, form: Form) -> Prepared {
         let time = record.clock();
         let mut steps = vec![0.0; time.len()];
@@ -50,6 +50,9 @@ impl Prepared {
             beginning: Beginning::default(),
             time,
         };
+        for &alone in &record.alone {
+            prepared.weight[alone] = 0.0;
+        }
         prepared.look_between(form);
         prepared
     }

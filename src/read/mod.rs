@@ -73,6 +73,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
             temperature: numbers.take(Quantity::Temperature),
             acceleration: numbers.take(Quantity::Acceleration),
             straight: false,
+            alone: Vec::new(),
         })
     } else if is_table {
         let required = [Quantity::ForceAmplitude, Quantity::Dissipation];

@@ -1,5 +1,6 @@
 //! Samples that stand alone: a digit lost on the way, a spark in the cable, a jolt of the drive.
 
+use super::Record;
 use super::cycles::span;
 
 /// What the neighbours on one side say of a sample: their mean, or the line through them.
@@ -63,6 +64,28 @@ pub fn scattered(found: Vec<(usize, f64)>, drive: &[f64]) -> Vec<(usize, f64)> {
     kept.copied().collect()
 }
 
+/// The record with samples that stand alone in either channel replaced by what their neighbours say, and marked: a spike
+/// of the input would send a model's memory elsewhere for good, and any of them passes for a range or for noise.
+pub fn struck_out(record: &Record) -> Record {
+    let mut struck = record.clone();
+    for channel in [&mut struck.force, &mut struck.displacement] {
+        for (i, instead) in outliers(channel, Neighbours::Line) {
+            channel[i] = instead;
+            struck.alone.push(i);
+        }
+    }
+    struck.alone.sort_unstable();
+    struck.alone.dedup();
+    struck
+}
+
+/// What is said of a record of which so many samples stand alone.
+pub fn stand_alone(name: &str, count: usize, samples: usize) -> String {
+    format!(
+        "Record {name}: {count} of {samples} samples stand alone against their neighbours on both sides and were left out."
+    )
+}
+
 /// Samples that both sides foretell to lie elsewhere, in the same direction, by more than
 /// deviations scatter in the record and about the sample; with what their sides say instead.
 ///
@@ -119,7 +142,10 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
                 .collect();
             deviations[k].abs() > ALONE * quantile(about, 0.75)
         })
-        .map(|k| (k + reach, 0.5 * (sides[k].0 + sides[k].1)))
+        .map(|k| match neighbours {
+            Neighbours::Level => (k + reach, 0.5 * (sides[k].0 + sides[k].1)),
+            Neighbours::Line => (k + reach, bridged(channel, k + reach)),
+        })
         .collect();
     if neighbours == Neighbours::Level {
         let first = lonely_end(|i| channel[i]);
@@ -158,6 +184,20 @@ fn foretold(at: impl Fn(usize) -> f64, neighbours: Neighbours) -> f64 {
         spread += from_middle * from_middle;
     }
     mean - along / spread * (middle + (APART + 1) as f64)
+}
+
+/// Value at a sample from those of both sides, by the cubic that comes nearest to them: where a channel bends, both
+/// sides' lines miss it on one side.
+fn bridged(channel: &[f64], i: usize) -> f64 {
+    // Odd powers vanish in the means of pairs at one distance.
+    let square = |j: usize| ((APART + 1 + j) as f64).powi(2);
+    let pair = |j: usize| 0.5 * (channel[i - APART - 1 - j] + channel[i + APART + 1 + j]);
+    let count = ASKED as f64;
+    let middle = (0..ASKED).map(square).sum::<f64>() / count;
+    let mean = (0..ASKED).map(pair).sum::<f64>() / count;
+    let along: f64 = (0..ASKED).map(|j| (square(j) - middle) * pair(j)).sum();
+    let spread: f64 = (0..ASKED).map(|j| (square(j) - middle).powi(2)).sum();
+    mean - along / spread * middle
 }
 
 /// The size of most deviations: their upper quartile, for half of them are zero by construction where a channel is

@@ -28,6 +28,9 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
         let both = channel.iter().zip(&kept);
         both.filter(|(_, kept)| **kept).map(|(v, _)| *v).collect()
     };
+    let behind: Vec<usize> = (0..count).filter(|&i| kept[i]).collect();
+    let alone = record.alone.iter();
+    let alone = alone.filter_map(|i| behind.binary_search(i).ok());
     let optional = |channel: &Option<Vec<f64>>| channel.as_ref().map(|c| pick(c));
     Some(Record {
         name: record.name.clone(),
@@ -38,6 +41,7 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
         temperature: optional(&record.temperature),
         acceleration: optional(&record.acceleration),
         straight: record.straight,
+        alone: alone.collect(),
     })
 }
 

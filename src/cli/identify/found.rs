@@ -8,6 +8,7 @@ use crate::identify::table::{self, Known};
 use crate::identify::{Form, baseline};
 use crate::joint::{Drive, Joint};
 use crate::read::Loaded;
+use crate::record::outliers::{stand_alone, struck_out};
 use crate::record::{AmplitudeTable, Measurement, Record};
 
 /// Result of the procedure and the fit.
@@ -118,6 +119,8 @@ impl Found {
         files: Vec<(String, usize)>,
         records: &[&Record],
     ) -> Result<Found, NothingFound> {
+        let struck: Vec<Record> = records.iter().map(|record| struck_out(record)).collect();
+        let records: &[&Record] = &struck.iter().collect::<Vec<_>>();
         let seed = seed::of_records(records)?;
         let drive = family::drive_for(&seed);
         crate::cli::output::tell("fitting the family with the exact response …");
@@ -125,6 +128,11 @@ impl Found {
         crate::cli::output::tell("fitting a joint of any density …");
         let any_joint_rms = any_joint(records, drive);
         let mut noticed = seed.findings.clone();
+        let alone = struck.iter().filter(|record| !record.alone.is_empty());
+        noticed.extend(alone.map(|record| {
+            let Record { name, alone, .. } = record;
+            stand_alone(name, alone.len(), record.len())
+        }));
         if fit.relative_rms > POOR {
             noticed.push(format!(
                 "The fitted joint leaves {:.0} % of the judged channel: it does not describe these \
