@@ -21,7 +21,11 @@ const NOISE: f64 = 2e-8;
 
 /// Forty plays in series under cycles of force of three levels; the sensor slips by `jump` at a sample.
 fn record_with(jump: f64, slips: usize) -> Record {
-    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    drawn(SEED, jump, slips)
+}
+
+fn drawn(seed: u64, jump: f64, slips: usize) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let count = CYCLES * CYCLE;
     let bears =
@@ -68,6 +72,23 @@ fn a_sensor_that_slips_within_the_level_set_aside_is_placed() {
     assert!(ratio < upper && upper < 1.0, "seed {SEED}: {ratio} {upper}");
     let noted = |note: &String| note.contains("within the cycles that are set aside as a rule");
     assert!(findings.notes.iter().any(noted), "seed {SEED}");
+}
+
+/// Whatever the noise is taken for: its variance is known to its scatter only.
+#[test]
+fn a_sensor_that_slips_far_within_the_level_set_aside_is_explained() {
+    for seed in SEED..SEED + 4 {
+        let slips = 9 * CYCLE + CYCLE / 3 + 7 * (seed - SEED) as usize;
+        let findings = diagnose(&[drawn(seed, 36.0 * NOISE, slips)], |_| ()).unwrap();
+        let names: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["offset_step"], "seed {seed}");
+        let summary = &findings.summary;
+        assert_eq!(
+            findings.verdict,
+            Verdict::Explained,
+            "seed {seed}: {summary}"
+        );
+    }
 }
 
 #[test]

@@ -240,6 +240,8 @@ fn assemble(
             share: left,
             places: match verdict {
                 Verdict::Clean | Verdict::Explained => Vec::new(),
+                // Of what noise may leave there are no places.
+                _ if !structure_after.is_seen() => Vec::new(),
                 _ => whereabouts::of_structure(records, bench, &structure_after),
             },
             doubles: match verdict {

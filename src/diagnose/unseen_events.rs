@@ -56,8 +56,10 @@ pub fn investigated(
         return first;
     }
     let before = first.left_of_all(&first.bench);
-    let told_by_all =
-        !first.found.best.effects.is_empty() && before < scatter(first.bench.whole.rows() as f64);
+    // The noise's own variance is known to its scatter, too.
+    let rows = first.bench.whole.rows() as f64;
+    let noise = (first.bench.most_left()).map_or(0.0, |most| (most - 1.0) * rows);
+    let told_by_all = !first.found.best.effects.is_empty() && before < scatter(rows).max(noise);
     if !news.end && !told_by_all {
         return first;
     }
