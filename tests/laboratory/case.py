@@ -17,6 +17,7 @@ from .rig import Effect, Infeasible
 from .scene import Scene
 
 FLOOR = 0.2  # the clean record must refit to this fraction of its noise
+STRAIGHT = 0.2  # of the cases go straight from sample to sample
 CLOCK = 0.1  # of the noise is what halving the rig's steps may still change
 
 
@@ -112,6 +113,9 @@ def _scene(rng, names, goes_on):
     histories = loads.draw_campaign(rng, holds=needed or rng.random() < 0.12)
     if goes_on and len(histories) < 2:
         raise Unreachable("one file goes on from none")
+    # Of a stream of its own: the joints and loads of a seed stay what they were.
+    if rng.spawn(1)[0].random() < STRAIGHT:
+        histories = [h.straight() for h in histories]
     by_force = bool(rng.random() < 0.65)
     if by_force:
         share = rng.uniform(0.3, 0.95)

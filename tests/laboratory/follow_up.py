@@ -57,7 +57,9 @@ def _noisy(staged, rng, time, force, displacement, by_force):
 def measure(staged, rng, time, command, by_force, fine_steps=FINE):
     """The hidden joint with its effect, virgin, under a command sampled at even steps."""
     grid = np.linspace(time[0], time[-1], fine_steps * (len(time) - 1) + 1)
-    fine = PchipInterpolator(time, command)(grid)
+    straight = staged.scene.histories[0].is_straight
+    between = np.interp if straight else lambda at, x, y: PchipInterpolator(x, y)(at)
+    fine = between(grid, time, command)
     trace = rig.drive(staged.scene.joint, grid, fine, by_force, staged.effect)
     every = slice(None, None, fine_steps)
     force = staged.effect.read_force(trace)[every]

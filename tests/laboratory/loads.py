@@ -15,6 +15,7 @@ class History:
     kind: str
     rates: list = field(default_factory=list)
     mean: float = 0.0
+    is_straight: bool = False  # from sample to sample, as a program that computes a record goes
 
     @property
     def samples(self) -> int:
@@ -29,12 +30,20 @@ class History:
         command = np.interp(half, whole, self.command)
         return replace(self, time=time, command=command, fine=2 * self.fine)
 
+    def straight(self):
+        """The same test with a command that goes straight from sample to sample."""
+        sampled = slice(None, None, self.fine)
+        command = np.interp(self.time, self.time[sampled], self.command[sampled])
+        peak = np.max(np.abs(command))
+        return replace(self, command=command / peak, is_straight=True)
+
     def describe(self) -> dict:
         """Plain values for the truth."""
         return {
             "kind": self.kind,
             "rates_Hz": self.rates,
             "mean_of_peak": self.mean,
+            "straight_between_samples": self.is_straight,
             "samples": self.samples,
             "duration_s": float(self.time[-1]),
         }

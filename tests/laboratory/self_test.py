@@ -297,6 +297,24 @@ class Cases(unittest.TestCase):
         self.assertGreaterEqual(len(kinds), 3)
 
 
+class Straight(unittest.TestCase):
+    def test_a_straight_test_keeps_its_samples_and_turns_at_them(self):
+        smooth = loads.one_rate(np.random.default_rng(3), 1.0, (2000, 3000))
+        straight = smooth.straight()
+        self.assertTrue(straight.is_straight and not smooth.is_straight)
+        every = slice(None, None, smooth.fine)
+        scale = straight.command[every] @ smooth.command[every]
+        scale /= smooth.command[every] @ smooth.command[every]
+        np.testing.assert_allclose(
+            straight.command[every], scale * smooth.command[every], atol=1e-12
+        )
+        self.assertAlmostEqual(np.max(np.abs(straight.command[every])), 1.0, places=12)
+        bends = np.abs(np.diff(straight.command, 2))
+        at_samples = np.zeros(len(straight.command), bool)
+        at_samples[every] = True
+        self.assertLess(np.max(bends[~at_samples[1:-1]]), 1e-12)
+
+
 class Turns(unittest.TestCase):
     def test_every_effect_has_its_turn_and_every_fifth_case_is_clean(self):
         names = in_turn(5 * len(EFFECTS))
