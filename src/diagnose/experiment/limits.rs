@@ -5,17 +5,67 @@ use crate::diagnose::prepare::Bench;
 use crate::identify::Form;
 use crate::record::cycles::cycles;
 
-/// Limits given by the user; `None` takes the largest that the records show.
+/// Limits given by the user; `None` takes what the records show.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
-    /// Largest magnitude of the force \[N\].
+    /// Largest force to either side of zero \[N\].
     pub force: Option<f64>,
-    /// Largest magnitude of the displacement \[m\].
+    /// Largest displacement to either side of zero \[m\].
     pub displacement: Option<f64>,
     /// Highest rate of a cycle \[Hz\].
     pub rate: Option<f64>,
     /// Longest test \[s\].
     pub duration: Option<f64>,
+}
+
+impl Limits {
+    /// Limit of the channel that drives.
+    pub fn of_drive(&mut self, form: Form) -> &mut Option<f64> {
+        match form {
+            Form::Play => &mut self.force,
+            Form::Stop => &mut self.displacement,
+        }
+    }
+
+    /// Limit of the channel that answers.
+    pub fn of_answer(&self, form: Form) -> Option<f64> {
+        match form {
+            Form::Play => self.displacement,
+            Form::Stop => self.force,
+        }
+    }
+}
+
+/// Least and largest value of a channel.
+type Range = (f64, f64);
+
+/// Share of the longer side of a range that the shorter has at least where the range is taken for symmetric: what a
+/// controller misses a turn by, and what a sensor's zero is off by.
+const EVEN: f64 = 0.95;
+
+/// The range, as wide to either side where it nearly is: a rig that swings about zero is not made to swing about
+/// something else for that.
+fn evened((lower, upper): Range) -> Range {
+    let shorter = upper.min(-lower);
+    match shorter >= EVEN * upper.max(-lower) {
+        true => (-shorter, shorter),
+        false => (lower, upper),
+    }
+}
+
+/// As far as the records went, and as far as the rig may go. Where the records stay on one side of zero, nobody but
+/// the user can say that the rig has another; who names a magnitude names it for both.
+fn ranges((lower, upper): Range, given: Option<f64>) -> (Range, Range) {
+    let Some(most) = given else {
+        return (evened((lower, upper)), evened((lower, upper)));
+    };
+    let inside = (lower.max(-most), upper.min(most));
+    let near = match inside.0 < inside.1 {
+        true => evened(inside),
+        // The records never were within what the user allows.
+        false => (-most, most),
+    };
+    (near, (-most, most))
 }
 
 /// Samples in the fastest cycle at least.
@@ -30,11 +80,11 @@ const FASTER: f64 = 3.0;
 /// records' own unless the highest rate needs a faster one.
 pub fn rigs(bench: &Bench, limits: &Limits) -> Vec<Rig> {
     let problem = &bench.whole;
-    let (mut reach, mut duration) = (0.0_f64, 0.0);
+    let (mut range, mut duration) = ((f64::INFINITY, f64::NEG_INFINITY), 0.0);
     let (mut fastest, mut steps) = (Vec::new(), Vec::new());
     for (k, record) in problem.records.iter().enumerate() {
         let (input, _) = problem.channels(k);
-        reach = input.iter().fold(reach, |a, b| a.max(b.abs()));
+        range = input.iter().fold(range, |(a, b), x| (a.min(*x), b.max(*x)));
         if let (Some(first), Some(last)) = (record.time.first(), record.time.last()) {
             duration += last - first;
         }
@@ -52,23 +102,48 @@ pub fn rigs(bench: &Bench, limits: &Limits) -> Vec<Rig> {
     let seen = seen.unwrap_or(1.0 / bench.scale.period);
     let rate = limits.rate.unwrap_or(seen);
     let step = steps.get(steps.len() / 2).copied().unwrap_or(1.0);
-    let given = match problem.operators.form {
-        Form::Play => limits.force,
-        Form::Stop => limits.displacement,
-    };
-    let most = given.unwrap_or(reach);
-    let of = |reach: f64, rate: f64| Rig {
-        reach,
+    let mut own = *limits;
+    let (near, far) = ranges(range, *own.of_drive(problem.operators.form));
+    let of = |(lower, upper): Range, rate: f64| Rig {
+        lower,
+        upper,
         rate,
         duration: limits.duration.unwrap_or(duration),
         step: step.min(1.0 / (PER_CYCLE * rate)),
     };
     let mut rigs = vec![
-        of(reach.min(most), seen.min(rate)),
-        of(reach.min(most), (FASTER * seen).min(rate)),
-        of(most, (FASTER * seen).min(rate)),
-        of(most, rate),
+        of(near, seen.min(rate)),
+        of(near, (FASTER * seen).min(rate)),
+        of(far, (FASTER * seen).min(rate)),
+        of(far, rate),
     ];
     rigs.dedup();
     rigs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_side_that_no_record_shows_is_the_users_to_open() {
+        let tension = (0.0, 4700.0);
+        assert_eq!(ranges(tension, None), (tension, tension));
+        // Farther on both sides, once what was seen does not settle the question.
+        assert_eq!(ranges(tension, Some(6000.0)), (tension, (-6000.0, 6000.0)));
+        assert_eq!(
+            ranges(tension, Some(2000.0)),
+            ((0.0, 2000.0), (-2000.0, 2000.0))
+        );
+        assert_eq!(ranges((5.0, 9.0), Some(2.0)), ((-2.0, 2.0), (-2.0, 2.0)));
+        assert_eq!(ranges((-7.4, 18.4), None).1, (-7.4, 18.4));
+    }
+
+    #[test]
+    fn a_nearly_symmetric_range_is_symmetric_and_no_wider() {
+        assert_eq!(ranges((-98.0, 100.0), None).1, (-98.0, 98.0));
+        assert_eq!(ranges((-100.0, 100.0), None).1, (-100.0, 100.0));
+        assert_eq!(ranges((-27.3, 23.7), None).1, (-27.3, 23.7));
+        assert_eq!(ranges((-900.0, 900.0), Some(800.0)).0, (-800.0, 800.0));
+    }
 }

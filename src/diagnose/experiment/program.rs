@@ -6,8 +6,10 @@ use std::f64::consts::{PI, TAU};
 /// What the rig can do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rig {
-    /// Largest magnitude of the prescribed channel, N or m.
-    pub reach: f64,
+    /// Least value of the prescribed channel, N or m.
+    pub lower: f64,
+    /// Its largest value.
+    pub upper: f64,
     /// Highest rate of a cycle \[Hz\].
     pub rate: f64,
     /// Longest test \[s\].
@@ -16,12 +18,12 @@ pub struct Rig {
     pub step: f64,
 }
 
-/// One block of a program; amplitude and mean as shares of the rig's reach.
+/// One block of a program; amplitude and mean as shares of the rig's reach, the mean from the middle of its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
     /// Amplitude over reach.
     pub amplitude: f64,
-    /// Mean over reach.
+    /// Mean less the middle of the range, over reach.
     pub mean: f64,
     /// Rate over the rig's highest.
     pub rate: f64,
@@ -45,11 +47,12 @@ impl Block {
         let mut words = format!(
             "{} cycles of {wave}, amplitude {}, {}",
             self.cycles,
-            quantity(self.amplitude * rig.reach, unit),
+            quantity(self.amplitude * rig.reach(), unit),
             quantity(self.rate * rig.rate, "Hz")
         );
-        if self.mean != 0.0 {
-            words += &format!(", about {}", quantity(self.mean * rig.reach, unit));
+        let mean = rig.middle() + self.mean * rig.reach();
+        if mean != 0.0 {
+            words += &format!(", about {}", quantity(mean, unit));
         }
         if self.hold > 0.0 {
             words += &format!(", then {} of rest at the peak", quantity(self.hold, "s"));
@@ -77,9 +80,34 @@ pub struct Played {
 const MOST_SAMPLES: f64 = 12_000.0;
 
 impl Rig {
+    /// Largest amplitude that the range has room for.
+    pub fn reach(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+
+    /// What a block without a mean of its own swings about: zero only where the range is as wide to either side.
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.lower + self.upper)
+    }
+
+    /// Where a program begins and ends: zero, or what of the range is nearest to it.
+    pub fn rest(&self) -> f64 {
+        0.0_f64.max(self.lower).min(self.upper)
+    }
+
+    /// The same rig with its range drawn in towards rest to so large a share.
+    pub fn drawn_in(&self, share: f64) -> Rig {
+        let towards = |bound: f64| self.rest() + share * (bound - self.rest());
+        Rig {
+            lower: towards(self.lower),
+            upper: towards(self.upper),
+            ..*self
+        }
+    }
+
     /// Blocks worth trying: steps of amplitude over two decades of rate, ramps, small cycles about
-    /// a mean to either side, rest at the peak, equal blocks repeated. None takes more than a third
-    /// of the time there is.
+    /// a mean to either side of the middle, rest at the peak, equal blocks repeated. None takes more
+    /// than a third of the time there is.
     pub fn menu(&self) -> Vec<Block> {
         let plain = Block {
             amplitude: 1.0,
@@ -141,8 +169,8 @@ impl Rig {
         self.duration.min(MOST_SAMPLES * self.step)
     }
 
-    /// Plays blocks one after the other: time \[s\] and the prescribed channel, from rest at zero
-    /// back to zero, at every sample of the rig's clock.
+    /// Plays blocks one after the other: time \[s\] and the prescribed channel, from rest
+    /// back to rest, at every sample of the rig's clock.
     pub fn play(&self, blocks: &[Block]) -> Played {
         let mut tape = Tape::new(self);
         for block in blocks {
@@ -159,7 +187,7 @@ impl Rig {
             }
         }
         let rate = blocks.last().map_or(self.rate, |b| b.rate * self.rate);
-        tape.write(1.0 / rate, rate, 0.0, 0.0);
+        tape.write(1.0 / rate, rate, 0.0, tape.rest());
         let time = (0..tape.values.len()).map(|i| i as f64 * self.step);
         Played {
             time: time.collect(),
@@ -182,18 +210,30 @@ struct Tape<'a> {
 
 impl<'a> Tape<'a> {
     fn new(rig: &'a Rig) -> Tape<'a> {
-        Tape {
+        let mut tape = Tape {
             rig,
-            values: vec![0.0],
+            values: vec![rig.rest()],
             shown: vec![(0, 1)],
             phase: 0.0,
             amplitude: 0.0,
             mean: 0.0,
             ramps: false,
+        };
+        tape.mean = tape.rest();
+        tape
+    }
+
+    /// Rest as a mean.
+    fn rest(&self) -> f64 {
+        match self.rig.reach() {
+            reach if reach > 0.0 => (self.rig.rest() - self.rig.middle()) / reach,
+            _ => 0.0,
         }
     }
 
     fn write(&mut self, seconds: f64, rate: f64, amplitude: f64, mean: f64) {
+        let (lower, upper) = (self.rig.lower, self.rig.upper);
+        let (reach, middle) = (self.rig.reach(), self.rig.middle());
         let count = (seconds / self.rig.step).round().max(1.0);
         // A whole number of samples per piece moves the rate by less than a sample in a piece.
         let turn = seconds * rate / count;
@@ -218,7 +258,9 @@ impl<'a> Tape<'a> {
                 let stands = if i % every == 0 { every } else { i % every };
                 self.shown.push((self.values.len(), stands));
             }
-            self.values.push(self.rig.reach * (level * wave + about));
+            // Between two blocks that stay inside, so does what eases from one to the other; but for the last bit.
+            let value = middle + reach * (level * wave + about);
+            self.values.push(value.max(lower).min(upper));
         }
         self.phase += seconds * rate;
         (self.amplitude, self.mean) = (amplitude, mean);
@@ -232,7 +274,8 @@ mod tests {
     #[test]
     fn a_program_keeps_to_the_rig() {
         let rig = Rig {
-            reach: 250.0,
+            lower: -250.0,
+            upper: 250.0,
             rate: 5.0,
             duration: 30.0,
             step: 0.004,
@@ -267,9 +310,49 @@ mod tests {
     }
 
     #[test]
+    fn a_program_stays_on_the_side_that_the_rig_has() {
+        for (lower, upper, rest) in [
+            (0.0, 4700.0, 0.0),
+            (-900.0, 0.0, 0.0),
+            (-7.4, 18.4, 0.0),
+            (5.0, 9.0, 5.0),
+        ] {
+            let rig = Rig {
+                lower,
+                upper,
+                rate: 2.0,
+                duration: 60.0,
+                step: 0.005,
+            };
+            let menu = rig.menu();
+            for blocks in menu.iter().map(std::slice::from_ref).chain([&menu[..]]) {
+                let values = rig.play(blocks).values;
+                let inside = |v: &f64| (lower..=upper).contains(v);
+                assert!(values.iter().all(inside), "{lower} {upper} {blocks:?}");
+                assert_eq!(values[0], rest);
+                let last = values[values.len() - 1];
+                assert!((last - rest).abs() < 1e-9 * (upper - lower), "{last}");
+            }
+            // All of the range is used.
+            let values = rig.play(&menu[..1]).values;
+            let span = |from: f64, to: f64| {
+                values
+                    .iter()
+                    .any(|v| (v - from).abs() < 0.01 * (upper - lower))
+                    && values
+                        .iter()
+                        .any(|v| (v - to).abs() < 0.01 * (upper - lower))
+            };
+            assert!(span(lower, upper), "{lower} {upper}");
+            assert!(menu[0].words(&rig, "N").contains(", about "));
+        }
+    }
+
+    #[test]
     fn a_short_test_leaves_out_slow_cycles() {
         let rig = Rig {
-            reach: 1.0,
+            lower: -1.0,
+            upper: 1.0,
             rate: 1.0,
             duration: 12.0,
             step: 0.01,
