@@ -6,6 +6,7 @@ use minijinja::value::Value;
 use super::quantity::chi_squared;
 use super::wording::{in_prose, in_words};
 use crate::diagnose::Findings;
+use crate::diagnose::experiment::Dummy;
 use crate::diagnose::experiment::dummy::Ruling;
 use crate::diagnose::experiment::separability::TOLD;
 use crate::record::written::{number, percent, quantity};
@@ -42,20 +43,38 @@ pub(super) fn separability(findings: &Findings) -> Vec<Value> {
     rows.collect()
 }
 
-/// What the dummy says, a sentence per cause.
+/// What the dummy says, a sentence per cause, and one for all that it does not show.
 pub(super) fn dummy(findings: &Findings) -> Vec<String> {
     let lines = findings.outlook.dummy.iter();
+    let (absent, lines): (Vec<&Dummy>, Vec<&Dummy>) =
+        lines.partition(|line| line.ruling == Ruling::Absent);
     lines
-        .map(|line| {
+        .into_iter()
+        .filter_map(|line| {
             let (name, fall) = (in_words(&line.name), number(line.fall, 3));
             let power = number(line.power, 3);
-            match line.ruling {
+            let sentence = match line.ruling {
                 Ruling::Shown => format!("{name}: the dummy shows it (its misfit falls by {fall}); it belongs to the measuring chain."),
                 Ruling::Excluded => format!("{name}: excluded; as large as the records need it, it would leave a χ² of {power} on the dummy, which falls by {fall} only."),
-                Ruling::Open => format!("{name}: open; the dummy could not have shown it (χ² {power})."),
-            }
+                Ruling::Open => format!("{name}: open; the dummy cannot tell (χ² {power})."),
+                Ruling::Slips => format!("the dummy is no solid specimen: its loop slips as a joint's does (its misfit falls by {fall} with a joint's law, by {power} with the best cause of the measuring chain), so that nothing it shows is sure to be the chain's."),
+                Ruling::Absent => return None,
+            };
+            Some(sentence)
         })
+        .chain(shows_none(&absent))
         .collect()
+}
+
+/// That the dummy shows none of these; nothing of nothing.
+fn shows_none(absent: &[&Dummy]) -> Option<String> {
+    let names: Vec<String> = absent.iter().map(|line| in_words(&line.name)).collect();
+    let most = absent.iter().map(|line| line.fall).reduce(f64::max)?;
+    Some(format!(
+        "the dummy shows none of {} (its misfit falls by {} at most).",
+        names.join(", "),
+        number(most, 3)
+    ))
 }
 
 /// What the learned correction does, in a sentence; none where there is none.

@@ -1,6 +1,7 @@
 //! A monolithic dummy measured through the same chain: it has no joint, so that loss, harmonics or
 //! phase in it come from the measuring chain alone. That settles joint against chain.
 
+use super::monolithic::Alone;
 use super::separability::TOLD;
 use crate::causes::{Cause, Kind, find};
 use crate::diagnose::prepare::Bench;
@@ -13,14 +14,15 @@ use crate::record::noise::{Noise, from_differences};
 use crate::record::repeats::from_repeats;
 use crate::record::resolution::resolution;
 
-/// What a dummy says of one cause of the measuring chain.
+/// What a dummy says of one cause of the measuring chain, or of itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dummy {
-    /// Catalogue name.
+    /// Catalogue name; `slip` where it is of the dummy itself.
     pub name: String,
     /// Fall of the dummy's misfit with this cause, in noise variances.
     pub fall: f64,
-    /// χ² that the cause, as large as the joint's records would have it, would leave on the dummy.
+    /// χ² that the cause, as large as the joint's records would have it, would leave on the dummy: zero for one that
+    /// the records do not ask for. Of slip, the fall with the best cause of the chain instead.
     pub power: f64,
     /// What follows.
     pub ruling: Ruling,
@@ -33,8 +35,12 @@ pub enum Ruling {
     Shown,
     /// The dummy would have shown it and does not.
     Excluded,
-    /// The dummy could not have shown it.
+    /// The dummy cannot tell: it could not have shown it, or it slips.
     Open,
+    /// The dummy does not show it, and the records do not ask for it.
+    Absent,
+    /// The dummy itself slips as a joint does: it is no solid specimen, and names no cause.
+    Slips,
 }
 
 impl Ruling {
@@ -44,6 +50,8 @@ impl Ruling {
             Ruling::Shown => "shown",
             Ruling::Excluded => "excluded",
             Ruling::Open => "open",
+            Ruling::Absent => "absent",
+            Ruling::Slips => "slips",
         }
     }
 }
@@ -80,8 +88,12 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
     (problem, fit)
 }
 
-/// What the dummy says of a cause that the joint's records would have with the given values.
-fn examine(problem: &Problem, plain: &Fit, cause: &'static dyn Cause, acting: &Acting) -> Dummy {
+/// What the dummy, which slips or does not, says of a cause that the joint's records would have with the given values.
+fn examine(
+    (problem, plain, slips): (&Problem, &Fit, bool),
+    cause: &'static dyn Cause,
+    acting: &Acting,
+) -> Dummy {
     let with = refit(problem, plain, vec![acting.clone()]);
     let fall = (plain.misfit - with.misfit) / dispersion(problem, &with);
     // What it would leave on a dummy free of noise.
@@ -95,7 +107,8 @@ fn examine(problem: &Problem, plain: &Fit, cause: &'static dyn Cause, acting: &A
     }
     let power = baseline(&simulated).misfit / dispersion(problem, &with);
     let ruling = match (fall > ALARM, fall >= PRESENT * power) {
-        (true, true) => Ruling::Shown,
+        // Slip has loss and harmonics of its own.
+        (true, true) if !slips => Ruling::Shown,
         (_, false) if power >= 2.0 * TOLD => Ruling::Excluded,
         _ => Ruling::Open,
     };
@@ -133,10 +146,14 @@ const MOST_OF_IT: f64 = 0.5;
 
 /// Settles ambiguous names by the dummy: a cause of the chain that it shows is named, one that it would have shown and
 /// does not is taken off. Where it takes off all that were as good, whoever of the others does most of the work is named;
-/// where nobody does, the name stays, and that the dummy speaks against it is said.
+/// where nobody does, the name stays, and that the dummy speaks against it is said. So is what it shows that nobody
+/// asked about, and that it slips itself.
 pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
     let (problem, plain) = spring(bench, dummy);
-    let (mut found, mut said, mut against) = (found, Vec::new(), Vec::new());
+    let alone = Alone::of(&problem, &plain, dummy);
+    let slips = alone.slips.is_some();
+    let mut said: Vec<Dummy> = alone.slips.clone().into_iter().collect();
+    let (mut found, mut against) = (found, Vec::new());
     for place in 0..found.best.effects.len() {
         let named = found.best.effects[place].clone();
         let mut set: Vec<String> = vec![named.effect.name().to_string()];
@@ -156,7 +173,7 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
         let rulings = members.iter().map(|(cause, fit)| {
             let acting = fit.effect(cause.name());
             let acting = acting.filter(|_| cause.kind() == Kind::Measurement)?;
-            Some(examine(&problem, &plain, *cause, acting))
+            Some(examine((&problem, &plain, slips), *cause, acting))
         });
         let rulings: Vec<Option<Dummy>> = rulings.collect();
         let is = |member: usize, ruling: Ruling| {
@@ -201,6 +218,7 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
             *list = rivals;
         }
     }
+    said.extend(alone.beside(&said));
     Settled {
         found,
         said,

@@ -8,6 +8,7 @@ mod features;
 mod gram;
 pub mod limits;
 pub mod loading;
+mod monolithic;
 pub mod next;
 pub mod outlook;
 pub mod program;
