@@ -1,6 +1,8 @@
 //! `iwan diagnose`: records → what is wrong, why, and the joint that has it.
 
+mod dummy;
 mod results;
+mod rig;
 
 use super::input::{BesideTable, Records};
 use super::progress::Progress;
@@ -8,7 +10,7 @@ use super::provenance::provenance;
 use super::{BadInput, output};
 use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
-use crate::diagnose::experiment::{Limits, Options};
+use crate::diagnose::experiment::Options;
 use crate::diagnose::{Findings, diagnose_with};
 use crate::joint::Drive;
 use crate::pack::{Archive, BUILD_COMMAND, FmiVersion, Library};
@@ -17,6 +19,7 @@ use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::report::{CausePage, html, json, text};
 use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use anyhow::Context;
+use rig::RigLimits;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -41,41 +44,6 @@ pub struct Diagnose {
     json: bool,
 }
 
-/// What the rig can do; by default what the records show it doing.
-#[derive(Debug, Clone, Copy, clap::Args)]
-struct RigLimits {
-    /// Largest force of the next experiment, newton
-    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
-    limit_force: Option<f64>,
-    /// Largest displacement of the next experiment, metre (records driven by displacement)
-    #[arg(long, value_name = "M", value_parser = positive, allow_negative_numbers = true)]
-    limit_displacement: Option<f64>,
-    /// Highest rate of its cycles, hertz
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
-    limit_rate: Option<f64>,
-    /// Its longest duration, seconds
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
-    limit_duration: Option<f64>,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err("a limit is a number above zero".to_string()),
-    }
-}
-
-impl RigLimits {
-    fn limits(self) -> Limits {
-        Limits {
-            force: self.limit_force,
-            displacement: self.limit_displacement,
-            rate: self.limit_rate,
-            duration: self.limit_duration,
-        }
-    }
-}
-
 /// Where the physics refuses the best joint, the records are none of a joint.
 const NO_JOINT: &str = "no joint follows these records: check the sign and the order of the force and \
                         displacement columns";
@@ -92,6 +60,8 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load()?;
     arguments.beside.of_use(&loaded)?;
+    arguments.rig.of_use(&loaded)?;
+    let dummy = dummy::load(arguments, &loaded)?;
     let preloads = super::preload::notes(&loaded);
     preloads.iter().for_each(|note| output::tell(note));
     let library = library();
@@ -106,7 +76,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         None => {
             let options = Options {
                 limits: arguments.rig.limits(),
-                dummy: dummy(arguments)?,
+                dummy,
             };
             let records = histories(&loaded)?;
             let found = diagnose_with(&records, &options, stage)
@@ -208,18 +178,6 @@ fn tables(loaded: &[Loaded]) -> Result<Option<Vec<AmplitudeTable>>, BadInput> {
             tables[0].name
         ))),
     }
-}
-
-/// The dummy's record, where one is given.
-fn dummy(arguments: &Diagnose) -> anyhow::Result<Option<Record>> {
-    let Some(file) = &arguments.dummy else {
-        return Ok(None);
-    };
-    let loaded = crate::read::file(file, &arguments.records.foreign.options()?)?;
-    super::input::tell_notes(file, &loaded.notes);
-    let mut records = histories(std::slice::from_ref(&loaded))?;
-    super::signs::admit(records.iter().map(|record| (file.as_path(), record)))?;
-    Ok(records.pop())
 }
 
 /// Fewest samples that a diagnosis can be made of.
