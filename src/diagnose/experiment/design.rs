@@ -23,6 +23,17 @@ pub struct Question {
     pub acting: Acting,
     /// Catalogue name of the rival; `none` for the baseline alone.
     pub rival: String,
+    /// χ² that the map gives for the records so far, where it is from there.
+    pub mapped: Option<f64>,
+}
+
+impl Question {
+    /// True where both are of the same two, whichever of them acts.
+    pub fn is_of_pair(&self, other: &Question) -> bool {
+        let pair = |q: &Question| (q.cause.name().to_string(), q.rival.clone());
+        let (one, two) = (pair(self), pair(other));
+        one == two || one == (two.1, two.0)
+    }
 }
 
 /// Blocks at most of a program that tells apart what is ambiguous, and of one that shows what may be hidden.
@@ -39,6 +50,11 @@ const HOPELESS: f64 = 0.05;
 /// Multiple of what is needed at which a question is surely settled: the look ahead is of first
 /// order, and noise takes its share.
 const SURE: f64 = 4.0;
+
+/// Rise of χ² that is worth running a program which does not settle its question, and multiple of what it was: less is
+/// within what the look ahead may be wrong by.
+const LEAST_RISE: f64 = 5.0;
+const LEAST_MULTIPLE: f64 = 2.0;
 
 /// How far one question is settled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +82,12 @@ impl Standing {
     /// χ² over what is needed.
     pub fn ratio(&self) -> f64 {
         self.lambda / self.needed
+    }
+
+    /// True where a program is worth running that brings a question from where it stood to here.
+    pub fn is_worth_more_than(&self, before: &Standing) -> bool {
+        let rises = self.lambda - before.lambda >= LEAST_RISE;
+        self.ratio() >= 1.0 || rises && self.lambda >= LEAST_MULTIPLE * before.lambda
     }
 }
 
@@ -320,4 +342,18 @@ pub fn refitted(
         ..whole.clone()
     };
     refit(&simulated, &start, with(rival)).misfit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_is_worth_running_where_it_gains() {
+        let at = |lambda: f64| Standing::new(lambda, lambda, 1000.0);
+        let worth = |before, after| at(after).is_worth_more_than(&at(before));
+        assert!(worth(0.2, 53.0) && worth(20.0, 40.0) && worth(3.0, 9.0));
+        assert!(!worth(0.2, 0.3) && !worth(0.0, 0.0) && !worth(0.1, 4.0));
+        assert!(!worth(12.0, 18.0));
+    }
 }

@@ -1,17 +1,21 @@
 //! Looking ahead: what these records can tell apart, which experiment would tell the rest, what a
 //! dummy settles, and what can be corrected without a cause.
 
+mod answered;
 pub mod correction;
 mod design;
 pub mod dummy;
 mod features;
 mod gram;
+mod instead;
 pub mod limits;
 pub mod loading;
 mod monolithic;
 pub mod next;
 pub mod outlook;
+mod plan;
 pub mod program;
+mod purpose;
 pub mod separability;
 mod shape;
 

@@ -1,17 +1,18 @@
 //! From open questions to the next experiment, or to why there is none.
 
 use super::Options;
-use super::design::{
-    BLOCKS, BLOCKS_TO_SHOW, Chosen, Design, Question, Standing, least, program, refitted,
-};
-use super::limits::rigs;
+use super::design::Question;
+use super::instead::instead;
+use super::plan::{Plan, Told};
+use super::program::Rig;
+use super::purpose::purpose;
 use super::separability::{Map, TOLD};
-use crate::causes::{Cause, Kind, find};
+use crate::causes::{Cause, find};
 use crate::diagnose::findings::Findings;
 use crate::diagnose::prepare::Bench;
 use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
-use rayon::prelude::*;
+use crate::record::written::quantity;
 
 /// A load program that separates what the records cannot.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +59,7 @@ fn ambiguous(findings: &Findings, known: &[(&'static dyn Cause, Acting)]) -> Vec
                     cause: *cause,
                     acting: acting.clone(),
                     rival: other.clone(),
+                    mapped: None,
                 }));
             }
         }
@@ -75,6 +77,7 @@ fn hidden(map: &Map) -> Vec<Question> {
             cause: find(&line.name)?,
             acting: acting.clone(),
             rival: line.rivals.first()?.0.clone(),
+            mapped: Some(line.lambda),
         })
     });
     asked.collect()
@@ -90,61 +93,52 @@ pub fn next(
     whole: &Fit,
     options: &Options,
 ) -> Option<Experiment> {
-    // Without time there is no rate to prescribe.
     let open = ambiguous(findings, known);
-    let named = !open.is_empty();
-    let questions = if named { open } else { hidden(map) };
+    let told = Told {
+        bench,
+        problem,
+        known,
+        whole,
+        ambiguous: !open.is_empty(),
+    };
+    let questions = match told.ambiguous {
+        true => open,
+        false => hidden(map),
+    };
     if questions.is_empty() {
         return None;
     }
-    let rows = bench.whole.rows() as f64;
-    let design = Design::new(problem, &whole.coefficients, &questions, rows, &bench.scale);
-    let most = if named { BLOCKS } else { BLOCKS_TO_SHOW };
-    let chosen = design.choose(&rigs(bench, &options.limits), most);
-    let mut causes: Vec<String> = Vec::new();
-    for question in &questions {
-        for name in [question.cause.name(), &question.rival] {
-            if name != "none" && !causes.iter().any(|c| c == name) {
-                causes.push(name.to_string());
-            }
+    let causes = names(&questions);
+    let rigs = told.rigs(&options.limits);
+    let (plan, missed) = told.plan(questions, &rigs);
+    let settles = plan.settles() && missed.is_empty();
+    let instead = (!settles).then(|| {
+        let mut unsettled = missed.clone();
+        if !plan.settles() {
+            unsettled.extend(plan.questions.iter().cloned());
         }
+        instead(&told, &unsettled, &options.limits, options.dummy.is_some())
+    });
+    let found: Vec<String> = findings.causes.iter().map(|c| c.name.clone()).collect();
+    let purpose = |questions: &[Question]| purpose(questions, told.ambiguous, &found);
+    let mut description = format!("{}: {}", purpose(&plan.questions), promise(&plan, &rigs));
+    if !missed.is_empty() {
+        description += &format!(". {}: not with this rig", purpose(&missed));
     }
-    let (drive, unit) = problem.operators.form.input();
-    let (before, after) = match &chosen {
-        None => (None, None),
-        Some(chosen) if named => refits(&design, chosen, known, whole),
-        Some(chosen) => (least(&chosen.before), least(&chosen.after)),
+    description += &match &instead {
+        Some(instead) => format!("; {instead}"),
+        None => ".".to_string(),
     };
-    let settles = after.is_some_and(|s| s.ratio() >= 1.0);
-    let needed = after.map_or(f64::NAN, |s| s.needed);
-    let lambda = |standing: Option<Standing>| standing.map_or(f64::NAN, |s| s.lambda);
-    let (before, after) = (lambda(before), lambda(after));
-    let instead = (!settles).then(|| instead(&causes, options.dummy.is_some()));
-    let (blocks, time, values) = match chosen {
+    let (drive, unit) = problem.operators.form.input();
+    let after = plan.after().map_or(f64::NAN, |s| s.lambda);
+    let lambda_before = plan.before();
+    let (blocks, time, values) = match plan.chosen {
         None => (Vec::new(), Vec::new(), Vec::new()),
         Some(chosen) => {
             let played = chosen.rig.play(&chosen.blocks);
             let words = chosen.blocks.iter().map(|b| b.words(&chosen.rig, unit));
             (words.collect(), played.time, played.values)
         }
-    };
-    let purpose = match named {
-        true => format!("To tell {} apart", causes.join(" and ")),
-        false => format!("To show {} at a size that would matter", causes.join(", ")),
-    };
-    let description = match (&instead, blocks.is_empty()) {
-        (None, _) => format!(
-            "{purpose}: run next_experiment.csv and diagnose it together with these records; expected chi² between the rivals {before:.1} before, {after:.1} with it."
-        ),
-        (Some(instead), true) => {
-            format!("{purpose}: not with this rig, no program fits its limits; {instead}")
-        }
-        (Some(instead), false) if after >= TOLD => format!(
-            "{purpose}: hardly with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {needed:.0} is needed, because no law is true to the last digit; {instead}"
-        ),
-        (Some(instead), false) => format!(
-            "{purpose}: not with this rig; the best program within its limits (next_experiment.csv) takes chi² from {before:.1} to {after:.1}, and {needed:.0} is needed; {instead}"
-        ),
     };
     Some(Experiment {
         description,
@@ -154,55 +148,62 @@ pub fn next(
         unit: unit.to_string(),
         time,
         values,
-        lambda_before: before,
+        lambda_before,
         lambda_after: after,
         settles,
         instead,
     })
 }
 
-/// The question that is settled least, before and after, by joint refits of every rival to every
-/// other.
-fn refits(
-    design: &Design,
-    chosen: &Chosen,
-    known: &[(&'static dyn Cause, Acting)],
-    whole: &Fit,
-) -> (Option<Standing>, Option<Standing>) {
-    let mut both = design.problem.clone();
-    let (program, more) = program(design.problem, &chosen.rig, &chosen.blocks);
-    both.records.extend(program.records);
-    let asked: Vec<&str> = design.questions.iter().map(|q| q.cause.name()).collect();
-    let others: Vec<Acting> = whole
-        .effects
-        .iter()
-        .filter(|a| !asked.contains(&a.effect.name()))
-        .cloned()
-        .collect();
-    let worst = |problem: &Problem, rows: f64| {
-        let each = design.questions.par_iter().map(|question| {
-            let rival = known.iter().find(|k| k.0.name() == question.rival);
-            let left =
-                |rival: Option<&Acting>| refitted(problem, whole, &question.acting, rival, &others);
-            Standing::new(left(rival.map(|k| &k.1)), left(None), rows)
-        });
-        least(&each.collect::<Vec<_>>())
-    };
-    (
-        worst(design.problem, design.rows),
-        worst(&both, design.rows + more),
-    )
+/// Names of all that is asked about, once each.
+fn names(questions: &[Question]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for question in questions {
+        for name in [question.cause.name(), &question.rival] {
+            if name != "none" && !names.iter().any(|n| n == name) {
+                names.push(name.to_string());
+            }
+        }
+    }
+    names
 }
 
-/// What would settle it, where no program does.
-fn instead(causes: &[String], dummy_is_there: bool) -> String {
-    let is = |name: &String, kind: Kind| find(name).is_some_and(|c| c.kind() == kind);
-    let chain = causes.iter().any(|c| is(c, Kind::Measurement));
-    let joint = causes.iter().any(|c| is(c, Kind::Joint));
-    match (chain, joint) {
-        (true, _) if dummy_is_there => "a second displacement sensor of another kind would, or more force or rate (--limit-force, --limit-rate).".to_string(),
-        (true, true) => "a monolithic dummy measured through the same chain would tell the joint from the chain (--dummy FILE), and so would a second displacement sensor of another kind, or more force or rate (--limit-force, --limit-rate).".to_string(),
-        (true, false) => "a monolithic dummy measured through the same chain (--dummy FILE) or a second sensor of another kind would.".to_string(),
-        _ => "more force, more rate or more time would (--limit-force, --limit-rate, --limit-duration), or a second sensor at the slipping faces.".to_string(),
+/// What the program would do for its questions, or that there is none: a sentence without its full stop.
+fn promise(plan: &Plan, rigs: &[Rig]) -> String {
+    let before = plan.before();
+    let Some(after) = plan.after() else {
+        let longest = rigs.iter().map(Rig::longest).fold(0.0, f64::max);
+        return match rigs.iter().all(|rig| rig.menu().is_empty()) {
+            true => format!(
+                "not with this rig, no program fits into {}",
+                quantity(longest, "s")
+            ),
+            false => "not with this rig, no program within its limits brings anything".to_string(),
+        };
+    };
+    let (lambda, needed) = (after.lambda.max(before), after.needed);
+    let takes = format!("takes chi² from {before:.1} to {lambda:.1}, and {needed:.0} is needed");
+    let why = match lambda >= TOLD {
+        true => ", because no law is true to the last digit",
+        false => "",
+    };
+    match (&plan.chosen, plan.settles()) {
+        (None, _) => {
+            format!(
+                "not with this rig, no program within its limits will do: the best {takes}{why}"
+            )
+        }
+        (_, true) => format!(
+            "run next_experiment.csv and diagnose it together with these records; expected chi² between the rivals {before:.1} before, {lambda:.1} with it"
+        ),
+        (_, false) => {
+            let hardly = match lambda >= TOLD {
+                true => "hardly",
+                false => "not",
+            };
+            format!(
+                "{hardly} with this rig; the best program within its limits (next_experiment.csv) {takes}{why}"
+            )
+        }
     }
 }
