@@ -51,24 +51,23 @@ fn measured(name: &str, force: &[f64], displacement: &[f64], delay: f64, seed: u
 }
 
 fn joint_record(delay: f64) -> Record {
+    let force = load();
+    measured("joint", &force, &answer(&force), delay, 1)
+}
+
+/// What the joint answers, at rest before.
+fn answer(force: &[f64]) -> Vec<f64> {
     let count = 60;
     let weights = vec![2e7 / f64::from(count); count as usize];
     let thresholds = (0..count).map(|j| 1e-6 + 4e-6 * f64::from(j)).collect();
     let sliders = Sliders::new(weights, thresholds, 2e6).expect("sliders");
     let joint = Joint::new(Density::Sliders(sliders), 5e7, Vec::new()).expect("joint");
     let mut simulation = Simulation::new(&joint, Drive::Force).expect("simulation");
-    let force = load();
-    let displacement: Vec<f64> = force
-        .iter()
-        .enumerate()
-        .map(|(i, f)| {
-            simulation
-                .step(i as f64 * STEP, *f)
-                .expect("step")
-                .displacement
-        })
-        .collect();
-    measured("joint", &force, &displacement, delay, 1)
+    let each = force.iter().enumerate().map(|(i, f)| {
+        let step = simulation.step(i as f64 * STEP, *f).expect("step");
+        step.displacement
+    });
+    each.collect()
 }
 
 /// A solid specimen under the same load.
@@ -124,6 +123,9 @@ fn one_rate_leaves_questions_and_a_program_within_the_rig() {
     assert!(peak > 0.0 && peak <= 800.0 * (1.0 + 1e-9), "{peak}");
     assert!(*experiment.time.last().expect("samples") <= 9.1);
     assert!(experiment.lambda_after > experiment.lambda_before);
+    // What was found is not to be shown: something else may hide behind it.
+    let said = &experiment.description;
+    assert!(!said.contains("show sensor_delay"), "{said}");
 }
 
 #[test]
@@ -153,4 +155,164 @@ fn a_dummy_without_delay_excludes_it() {
     assert!(rivals.iter().all(|r| r != "sensor_delay"), "{rivals:?}");
     let next = findings.next_experiment.unwrap_or_default();
     assert!(!next.contains("--dummy"), "{next}");
+}
+
+/// Runs a diagnosis of a file and gives its status and messages.
+fn run_with(record: &std::path::Path, more: &[&str]) -> (Option<i32>, String) {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_iwan"))
+        .arg("diagnose")
+        .arg(record)
+        .args(["-o", "never", "--json"])
+        .args(more)
+        .current_dir(env!("CARGO_TARGET_TMPDIR"))
+        .output()
+        .expect("the binary runs");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), said)
+}
+
+#[test]
+fn options_that_nothing_has_a_use_for_are_refused() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let table = folder.join("experiment-table.csv");
+    let rows = "force amplitude [N],dissipation [J]\n100,1e-6\n200,6e-6\n300,2e-5\n400,5e-5\n";
+    std::fs::write(&table, rows).expect("a test file");
+    let without_time = folder.join("experiment-without-time.csv");
+    let record = joint_record(0.0);
+    let rows = record.force.iter().zip(&record.displacement);
+    let rows: Vec<String> = rows.map(|(f, u)| format!("{f:?},{u:?}")).collect();
+    let text = format!("force [N],displacement [m]\n{}\n", rows.join("\n"));
+    std::fs::write(&without_time, text).expect("a test file");
+    let dummy = without_time.to_str().expect("a path of this repository");
+    for (record, options, words) in [
+        (&table, ["--limit-force", "5"], "amplitude table"),
+        (&table, ["--limit-duration", "5"], "amplitude table"),
+        (&table, ["--dummy", dummy], "amplitude table"),
+        (&without_time, ["--limit-rate", "5"], "without time"),
+        (&without_time, ["--dummy", dummy], "same content as"),
+    ] {
+        let (status, said) = run_with(record, &options);
+        assert_eq!(status, Some(2), "{options:?}: {said}");
+        let named = said.contains(options[0]) || said.contains(options[1]);
+        assert!(named && said.contains(words), "{options:?}: {said}");
+    }
+    assert!(!folder.join("never").exists());
+}
+
+/// The joint's record under a load that never pushes.
+fn pulled() -> Record {
+    let force: Vec<f64> = load().iter().map(|f| 900.0 + f).collect();
+    let mut ramp: Vec<f64> = (0..200).map(|i| 4.5 * f64::from(i)).collect();
+    ramp.extend(force);
+    measured("pulled", &ramp, &answer(&ramp), 0.0, 3)
+}
+
+#[test]
+fn a_rig_that_only_pulled_is_not_made_to_push() {
+    let run = |limits: Limits| {
+        let options = Options {
+            limits,
+            dummy: None,
+        };
+        let findings = diagnose_with(&[pulled()], &options, |_| {}).expect("findings");
+        let experiment = findings.outlook.experiment.clone();
+        let experiment = experiment.expect("something is open");
+        let values = &experiment.values;
+        let lower = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let upper = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (lower, upper, findings, experiment)
+    };
+    let faster = Limits {
+        rate: Some(10.0),
+        duration: Some(9.0),
+        ..Limits::default()
+    };
+    let (lower, upper, findings, experiment) = run(faster);
+    assert!(!experiment.blocks.is_empty(), "{}", experiment.description);
+    assert!(lower >= 0.0 && upper <= 1800.0, "{lower} {upper}");
+    assert!(upper > 900.0 && experiment.values[0] == 0.0);
+    assert!(experiment.values.last().expect("samples").abs() < 1e-6);
+    // One number for one χ²: the least that the map gives for what is asked.
+    let lines = findings.outlook.separability.iter();
+    let mut hidden = lines.filter(|l| !l.fitted && l.lambda < 25.0);
+    assert!(
+        hidden.any(|l| l.lambda == experiment.lambda_before),
+        "{}",
+        experiment.lambda_before
+    );
+    // A limit of the channel that answers holds as well: half of what was seen.
+    let seen = pulled().displacement;
+    let most = 0.5 * seen.iter().copied().fold(0.0, f64::max);
+    let (_, narrowed, ..) = run(Limits {
+        displacement: Some(most),
+        ..faster
+    });
+    assert!(
+        narrowed > 0.4 * upper && narrowed < 0.65 * 1800.0,
+        "{narrowed}"
+    );
+}
+
+#[test]
+fn where_only_time_is_short_the_findings_say_so() {
+    let options = Options {
+        limits: Limits {
+            force: Some(800.0),
+            rate: Some(10.0),
+            duration: Some(0.4),
+            ..Limits::default()
+        },
+        dummy: None,
+    };
+    let findings = diagnose_with(&[joint_record(0.0)], &options, |_| {}).expect("findings");
+    let experiment = findings.outlook.experiment.expect("something is open");
+    assert!(experiment.blocks.is_empty() && !experiment.settles);
+    let said = &experiment.description;
+    assert!(said.contains("no program fits into 400 ms"), "{said}");
+    assert!(said.contains("a longer test (--limit-duration "), "{said}");
+}
+
+#[test]
+fn a_program_that_gains_nothing_is_not_written() {
+    // Hardly any load: nothing that a rig so weak does would show anything.
+    let options = Options {
+        limits: Limits {
+            force: Some(3.0),
+            duration: Some(6.0),
+            ..Limits::default()
+        },
+        dummy: None,
+    };
+    let findings = diagnose_with(&[joint_record(0.0)], &options, |_| {}).expect("findings");
+    let experiment = findings.outlook.experiment.expect("something is open");
+    assert!(experiment.blocks.is_empty() && experiment.values.is_empty());
+    assert!(!experiment.settles && experiment.instead.is_some());
+    let said = &experiment.description;
+    assert!(said.contains("not with this rig"), "{said}");
+    assert!(!said.contains("next_experiment.csv"), "{said}");
+}
+
+#[test]
+fn a_dummy_that_shows_nothing_is_said_to() {
+    let findings = diagnose(0.0, Some(dummy(0.0)));
+    let said = &findings.outlook.dummy;
+    assert!(said.iter().any(|d| d.name == "sensor_delay"), "{said:?}");
+    assert!(said.iter().all(|d| d.ruling == Ruling::Absent), "{said:?}");
+}
+
+#[test]
+fn a_dummy_with_a_delay_that_nobody_asked_about_is_said_to_have_it() {
+    let findings = diagnose(0.0, Some(dummy(DELAY)));
+    let said = &findings.outlook.dummy;
+    let names: Vec<&str> = said.iter().map(|d| d.name.as_str()).collect();
+    assert_eq!(names, ["sensor_delay"], "{said:?}");
+    assert_eq!(said[0].ruling, Ruling::Shown);
+}
+
+#[test]
+fn a_joint_is_no_dummy() {
+    let findings = diagnose(DELAY, Some(joint_record(0.0)));
+    let said = &findings.outlook.dummy;
+    assert_eq!(said[0].ruling, Ruling::Slips, "{said:?}");
+    assert!(said.iter().all(|d| d.ruling != Ruling::Shown), "{said:?}");
 }
