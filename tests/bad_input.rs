@@ -121,7 +121,7 @@ fn bad_records_are_refused_by_every_command_that_reads_them() {
         .collect();
     let whole: [(&str, &[u8], &[&str]); 6] = [
         ("empty.csv", b"", &["empty"]),
-        ("comments.csv", b"# nothing\n\n", &["empty"]),
+        ("comments.csv", b"# nothing\n\n", &["nothing but comments"]),
         (
             "one column.csv",
             b"force [N]\n1\n2\n",
@@ -242,6 +242,12 @@ fn bad_usage_is_refused() {
     folder.assert_refuses(&["identify"], &["RECORD"]);
     simulate(&["--drive", "torque"], &["torque", "displacement"]);
     simulate(&["--columns", "force"], &["--columns `force`", "force=2"]);
+    simulate(&["--columns", ""], &["--columns", "nothing is named"]);
+    simulate(&["--units", " , "], &["--units", "nothing is named"]);
+    simulate(
+        &["--columns", "force=9"],
+        &["load.csv, line 1", "force in column 9", "3 `u [mm]`"],
+    );
     simulate(&["--columns", "force=0"], &["counted from 1"]);
     let twice = ["--columns", "force=2,displacement=2"];
     simulate(

@@ -29,7 +29,8 @@ fn history(name: &str, content: impl AsRef<[u8]>) -> Record {
 }
 
 fn options(columns: &str, units: &str) -> Options {
-    Options::from_arguments(Some(columns), Some(units)).expect("good options")
+    let given = |text| Some(text).filter(|text: &&str| !text.is_empty());
+    Options::from_arguments(given(columns), given(units)).expect("good options")
 }
 
 /// Time 0, 0.5, 1 s; force 1000, −2500, 0 N; displacement 0.0015, −0.002, 0 m.
@@ -251,6 +252,25 @@ fn foreign_files_are_read_by_their_columns() {
     // units alone, for a header without them
     let unitless = "t,F,u\n0,1,1.5\n.5,-2.5,-2\n1,0,0\n";
     assert_is_the_same_test(&history_by("unitless.csv", unitless, &options("", units)));
+}
+
+#[test]
+fn columns_that_are_not_chosen_are_found_by_their_header() {
+    let content = "t [s],F1 [kN],F [kN],u [mm]\n0,1,9,1.5\n.5,-2.5,9,-2\n1,0,9,0\n";
+    assert_is_the_same_test(&history_by("chosen.csv", content, &options("force=2", "")));
+    // A load is driven by what is chosen alone.
+    let path = written("chosen load.csv", content.as_bytes());
+    let load = read::load_table(&path, &options("displacement=4", "")).expect("a good load");
+    assert_eq!(load.force, None);
+    assert_eq!(load.time, [0.0, 0.5, 1.0]);
+    // So does a choice of a table's columns make it one.
+    let both = "F0 [N],F [N],u [m],energy [J]\n1,1,2,1e-3\n2,2,4,2e-3\n";
+    let path = written("chosen table.csv", both.as_bytes());
+    let loaded = read::file(&path, &options("dissipation=4", "")).expect("a good table");
+    assert!(
+        matches!(loaded.measurement, Measurement::Amplitudes(_)),
+        "{loaded:?}"
+    );
 }
 
 #[test]

@@ -29,6 +29,8 @@ fn options_that_make_no_sense_are_refused() {
         (Some("force"), None),
         (Some("weight=2"), None),
         (Some("force=0"), None),
+        (Some(""), None),
+        (None, Some(",")),
         (Some("force=1,load=2"), None),
         (None, Some("force=mm")),
         (None, Some("force=furlong")),
@@ -50,6 +52,33 @@ fn options_that_make_no_sense_are_refused() {
         error.to_string().contains("1 `F [N]`, 2 `u [m]`"),
         "{error}"
     );
+}
+
+#[test]
+fn a_column_past_the_last_or_without_numbers_is_named() {
+    let by = |name: &str, content: &str, columns: &str| {
+        let options = Options::from_arguments(Some(columns), None).expect("good options");
+        let loaded = read::file(&written(name, content.as_bytes()), &options);
+        loaded.expect_err("a bad choice is refused").to_string()
+    };
+    let labelled = "# rig\nlabel,F [N],u [m]\na,1,2\nb,3,4\n";
+    let past = by(
+        "past.csv",
+        "# rig\nt [s],F [N],u [m]\n0,1,2\n1,2,3\n",
+        "force=9",
+    );
+    assert!(
+        past.contains("line 2: --columns asks for force in column 9, and there are 1 `t [s]`"),
+        "{past}"
+    );
+    let text = by("labelled.csv", labelled, "force=1");
+    assert!(
+        text.contains("no row has a number where --columns looks for one (force in column 1)"),
+        "{text}"
+    );
+    // What is chosen for one quantity is not found for another by its header.
+    let taken = by("taken.csv", "t [s],F [N],u [m]\n0,1,2\n", "displacement=2");
+    assert!(taken.contains("no column force among"), "{taken}");
 }
 
 #[test]
@@ -163,7 +192,26 @@ fn a_refusal_names_line_column_and_value() {
 fn a_refused_header_says_what_would_do() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("", "empty", &["empty"]),
-        ("# only\n\n# comments\n", "comments", &["empty"]),
+        (
+            "# only\n\n# comments\n",
+            "comments",
+            &["nothing but comments", "needs a header"],
+        ),
+        (
+            "# rig\ntime [s],force [N],displacement [m]\n0;1;2\n1;2;3\n",
+            "two separators",
+            &["line 2", "the header has `,` and the rows have `;`"],
+        ),
+        (
+            "time [s];force [N];displacement [m]\n0\t1\t2\n1\t2\t3\n",
+            "two others",
+            &["line 1", "the header has `;` and the rows have a tab"],
+        ),
+        (
+            "time [s],force [N],displacement [m]\n0\n1\n",
+            "one cell",
+            &["line 2", "1 column where the table has 3"],
+        ),
         ("force [N]\n1\n2\n", "one", &["line 1", "one column"]),
         ("1,2\n3,4\n", "bare", &["line 1", "header", "--columns"]),
         (

@@ -68,6 +68,15 @@ pub enum ReadError {
         /// The file.
         file: PathBuf,
     },
+    /// Comments and blank lines alone.
+    #[error(
+        "{}: there is nothing but comments (#) in this file; it needs a header such as `time [s], force [N], displacement [m]` and rows of numbers",
+        .file.display()
+    )]
+    CommentsOnly {
+        /// The file.
+        file: PathBuf,
+    },
     /// A header without rows.
     #[error("{}, line {line}: a header and no row of numbers below it", .file.display())]
     NoRows {
@@ -75,6 +84,34 @@ pub enum ReadError {
         file: PathBuf,
         /// Line of the header.
         line: usize,
+    },
+    /// No number where `--columns` looks for one.
+    #[error(
+        "{}: up to its last line, {line}, no row has a number where --columns looks for one ({chosen}); columns are counted from 1",
+        .file.display()
+    )]
+    NoChosenNumbers {
+        /// The file.
+        file: PathBuf,
+        /// Its last line that holds anything.
+        line: usize,
+        /// What was looked for, and where.
+        chosen: String,
+    },
+    /// A header that is separated otherwise than the rows below it.
+    #[error(
+        "{}, line {line}: the header has {header} and the rows have {rows} between the columns; use one of them in both",
+        .file.display()
+    )]
+    TwoSeparators {
+        /// The file.
+        file: PathBuf,
+        /// Line of the header.
+        line: usize,
+        /// Separator of the header.
+        header: &'static str,
+        /// Separator of the rows.
+        rows: &'static str,
     },
     /// A single column.
     #[error(
@@ -121,7 +158,7 @@ pub enum ReadError {
     },
     /// Two columns for one quantity.
     #[error(
-        "{second}: column {first} `{first_name}` holds {quantity} too; name every column to use with --columns, such as {quantity}={first}"
+        "{second}: column {first} `{first_name}` holds {quantity} too; name the one to use with --columns, such as {quantity}={first}"
     )]
     Twice {
         /// The later column.
@@ -188,8 +225,9 @@ pub enum ReadError {
     },
     /// A row longer or shorter than the header.
     #[error(
-        "{}, line {line}: {found} columns where the table has {expected}: `{text}`; {fault}",
-        .file.display()
+        "{}, line {line}: {} where the table has {expected}: `{text}`; {fault}",
+        .file.display(),
+        columns(*.found)
     )]
     Ragged {
         /// The file.
@@ -314,3 +352,10 @@ fn unit_fault(unit: &str, measures: &Option<&'static str>) -> String {
         None => format!("unknown unit `{unit}`"),
     }
 }
+fn columns(count: usize) -> String {
+    match count {
+        1 => "1 column".to_string(),
+        count => format!("{count} columns"),
+    }
+}
+

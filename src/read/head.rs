@@ -63,6 +63,7 @@ pub fn line_at(text: &str, end: usize) -> usize {
         .count()
 }
 
+#[derive(Clone)]
 struct Row {
     cells: StringRecord,
     end: usize,
@@ -71,13 +72,14 @@ struct Row {
 /// Finds the head; `needed` says what the table has to hold, for where it does not.
 ///
 /// # Errors
-/// [`ReadError::Empty`], [`ReadError::OneColumn`], [`ReadError::NoHeader`],
-/// [`ReadError::NoRows`].
+/// [`ReadError::Empty`], [`ReadError::CommentsOnly`], [`ReadError::OneColumn`],
+/// [`ReadError::TwoSeparators`], [`ReadError::NoHeader`], [`ReadError::NoRows`], [`ReadError::NoChosenNumbers`].
 pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<Head, ReadError> {
     let text = source.text.as_str();
     let separator = separator(text);
     let mut rows = reader(text, separator);
     let mut before: Option<Row> = None; // the row before the one looked at
+    let mut numbers: Option<(Row, Option<Row>)> = None; // the first row of numbers, and the one before
     let mut skipped = 0;
     while let Some(row) = next(&mut rows, source)? {
         if options.columns.is_empty() {
@@ -94,16 +96,24 @@ pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<
             return Ok(head);
         }
         skipped += 1;
-        before = Some(row);
+        let above = before.replace(row.clone());
+        if numbers.is_none() && is_numbers(&row.cells) {
+            numbers = Some((row, above));
+        }
     }
-    match before {
-        None => Err(ReadError::Empty {
-            file: source.file.clone(),
+    let file = source.file.clone();
+    match (numbers, before) {
+        // The layout says which column is beyond the table.
+        (Some((row, above)), _) => Ok(declared_by_options(text, separator, &row, above.as_ref())),
+        (None, Some(last)) => Err(ReadError::NoChosenNumbers {
+            file,
+            line: line_at(text, last.end),
+            chosen: chosen(options),
         }),
-        Some(row) => Err(ReadError::NoRows {
-            file: source.file.clone(),
-            line: line_at(text, row.end),
-        }),
+        (None, None) if text.lines().any(|line| line.trim_start().starts_with('#')) => {
+            Err(ReadError::CommentsOnly { file })
+        }
+        (None, None) => Err(ReadError::Empty { file }),
     }
 }
 
@@ -120,6 +130,18 @@ fn declared(
     let file = source.file.clone();
     let shown = shown(&first.cells, separator);
     let mut notes = Vec::new();
+    if let (true, Some(header)) = (
+        first.cells.len() < 2,
+        header_separator(&first.cells, separator),
+    ) && second.is_some_and(|row| row.cells.len() > 1)
+    {
+        return Err(ReadError::TwoSeparators {
+            file,
+            line,
+            header: sign(header),
+            rows: sign(separator),
+        });
+    }
     if first.cells.len() < 2 {
         return Err(ReadError::OneColumn {
             file,
@@ -243,6 +265,15 @@ fn holds_chosen_numbers(row: &StringRecord, options: &Options) -> bool {
     })
 }
 
+/// The choices of `--columns` in words.
+fn chosen(options: &Options) -> String {
+    let entries = options.columns.iter();
+    entries
+        .map(|(quantity, choice)| format!("{quantity} in column {choice}"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
 /// Many programs write the header as a comment: the last one above the numbers, if it names
 /// columns.
 fn commented_header(text: &str, separator: u8, line: usize, width: usize) -> Option<Vec<String>> {
@@ -263,10 +294,28 @@ fn commented_header(text: &str, separator: u8, line: usize, width: usize) -> Opt
     (names.len() == width && names.iter().any(is_named)).then_some(names)
 }
 
+const CANDIDATES: [u8; 3] = *b"\t;,";
+
+/// A separator that the header has and the rows do not use.
+fn header_separator(header: &StringRecord, of_rows: u8) -> Option<u8> {
+    let bytes = header.as_slice().as_bytes();
+    CANDIDATES
+        .into_iter()
+        .find(|candidate| *candidate != of_rows && bytes.contains(candidate))
+}
+
+/// A separator as it stands in a message.
+fn sign(separator: u8) -> &'static str {
+    match separator {
+        b'\t' => "a tab",
+        b';' => "`;`",
+        _ => "`,`",
+    }
+}
+
 /// The separator that most of the first rows show, tab before semicolon before comma within one
 /// row: a comma beside the others is a decimal comma.
 fn separator(text: &str) -> u8 {
-    const CANDIDATES: [u8; 3] = *b"\t;,";
     let mut votes = [0; 3];
     let rows = text
         .lines()

@@ -29,7 +29,8 @@ pub struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// Matches header cells, or the choices of `--columns`, to quantities.
+    /// Matches the choices of `--columns`, and then the other header cells, to quantities. Of each pair in
+    /// `apart` the second is not looked for where the first was chosen: it would change what the table is taken for.
     ///
     /// # Errors
     /// [`ReadError::Twice`], [`ReadError::NoSuchColumn`], [`ReadError::SameColumn`].
@@ -37,6 +38,7 @@ impl<'a> Layout<'a> {
         source: &'a Source,
         head: &'a Head,
         options: &'a Options,
+        apart: &[(Quantity, Quantity)],
     ) -> Result<Layout<'a>, ReadError> {
         let mut layout = Layout {
             source,
@@ -44,13 +46,6 @@ impl<'a> Layout<'a> {
             options,
             found: Vec::new(),
         };
-        if options.columns.is_empty() {
-            for quantity in Quantity::ALL {
-                if let Some(index) = layout.in_header(quantity)? {
-                    layout.found.push((quantity, index));
-                }
-            }
-        }
         for (quantity, choice) in &options.columns {
             let index = layout.chosen(*quantity, choice)?;
             if let Some((first, _)) = layout.found.iter().find(|(_, taken)| *taken == index) {
@@ -61,6 +56,20 @@ impl<'a> Layout<'a> {
                 });
             }
             layout.found.push((*quantity, index));
+        }
+        let excluded: Vec<Quantity> = apart
+            .iter()
+            .filter(|(chosen, _)| layout.has(*chosen))
+            .map(|(_, other)| *other)
+            .collect();
+        let chosen: Vec<usize> = layout.found.iter().map(|(_, index)| *index).collect();
+        for quantity in Quantity::ALL {
+            if layout.has(quantity) || excluded.contains(&quantity) {
+                continue;
+            }
+            if let Some(index) = layout.in_header(quantity, &chosen)? {
+                layout.found.push((quantity, index));
+            }
         }
         Ok(layout)
     }
@@ -161,10 +170,12 @@ impl<'a> Layout<'a> {
         }
     }
 
-    /// The column whose header names the quantity; the contract's own name before its aliases.
-    fn in_header(&self, quantity: Quantity) -> Result<Option<usize>, ReadError> {
+    /// The column whose header names the quantity, the `chosen` ones left out; the contract's own name before
+    /// its aliases.
+    fn in_header(&self, quantity: Quantity, chosen: &[usize]) -> Result<Option<usize>, ReadError> {
         let mut matching = Vec::new();
-        for (index, cell) in self.head.names.iter().enumerate() {
+        let cells = self.head.names.iter().enumerate();
+        for (index, cell) in cells.filter(|(index, _)| !chosen.contains(index)) {
             let (name, in_cell) = quantity::name_and_unit(cell);
             let below = self.head.units.get(index).map(|cell| bare(cell));
             if Quantity::named(name, in_cell.or(below)) == Some(quantity) {

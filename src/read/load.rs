@@ -52,6 +52,12 @@ impl LoadTable {
     }
 }
 
+/// Whichever of the two is chosen by `--columns` alone is what drives.
+const ONE_DRIVE: [(Quantity, Quantity); 2] = [
+    (Quantity::Force, Quantity::Displacement),
+    (Quantity::Displacement, Quantity::Force),
+];
+
 /// Reads a load: time, and force or displacement or both. Without time the rows are taken one
 /// second apart, and the notes say so.
 ///
@@ -67,7 +73,7 @@ pub fn load_table(path: &Path, options: &Options) -> Result<LoadTable, ReadError
         options,
         "a load needs time, and force or displacement",
     )?;
-    let layout = super::Layout::new(&source, &head, options)?;
+    let layout = super::Layout::new(&source, &head, options, &ONE_DRIVE)?;
     let prescribed = [Quantity::Force, Quantity::Displacement];
     let required: Vec<Quantity> = prescribed.into_iter().filter(|q| layout.has(*q)).collect();
     if required.is_empty() {

@@ -46,6 +46,11 @@ const WITH_HISTORY: [Quantity; 4] = [
 ];
 const WITH_AMPLITUDES: [Quantity; 2] = [Quantity::DisplacementAmplitude, Quantity::Frequency];
 
+/// Where `--columns` names one of a table, the file is no history.
+const A_TABLE: [(Quantity, Quantity); 2] = [
+    (Quantity::ForceAmplitude, Quantity::Force),
+    (Quantity::Dissipation, Quantity::Force),
+];
 /// Reads a time history or an amplitude table, whichever the header (or `--columns`) declares.
 ///
 /// # Errors
@@ -57,7 +62,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
         head,
         mut notes,
     } = Opened::new(path, options, "a measurement needs force and displacement")?;
-    let layout = Layout::new(&source, &head, options)?;
+    let layout = Layout::new(&source, &head, options, &A_TABLE)?;
     let is_history = layout.has(Quantity::Force) && layout.has(Quantity::Displacement);
     let is_table = layout.has(Quantity::ForceAmplitude) && layout.has(Quantity::Dissipation);
     let measurement = if is_history {

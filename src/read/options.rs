@@ -25,7 +25,7 @@ impl std::fmt::Display for Choice {
 /// What is known of a file beyond its header. The default trusts the header.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Options {
-    /// Columns to take; where any is given, no other is looked for.
+    /// Columns to take; others are found by their header.
     pub columns: Vec<(Quantity, Choice)>,
     /// Units, which prevail over the header's.
     pub units: Vec<(Quantity, &'static Unit)>,
@@ -37,7 +37,7 @@ impl Options {
     ///
     /// # Errors
     /// [`ReadError::Option`] for an entry that is no `quantity=value`, a quantity or unit that is
-    /// not known, one given twice, column 0.
+    /// not known, one given twice, column 0; an option without any entry.
     pub fn from_arguments(
         columns: Option<&str>,
         units: Option<&str>,
@@ -77,12 +77,10 @@ fn entries<T>(
     value_of: impl Fn(Quantity, &str) -> Result<T, String>,
 ) -> Result<Vec<(Quantity, T)>, ReadError> {
     let mut found: Vec<(Quantity, T)> = Vec::new();
-    for entry in text
-        .unwrap_or_default()
-        .split(',')
-        .map(str::trim)
-        .filter(|e| !e.is_empty())
-    {
+    let Some(text) = text else {
+        return Ok(found);
+    };
+    for entry in text.split(',').map(str::trim).filter(|e| !e.is_empty()) {
         let refuse = |reason: String| ReadError::Option {
             option,
             text: entry.to_string(),
@@ -102,6 +100,14 @@ fn entries<T>(
             return Err(refuse(format!("{} is given twice", quantity.name())));
         }
         found.push((quantity, value_of(quantity, value.trim()).map_err(refuse)?));
+    }
+    if found.is_empty() {
+        return Err(ReadError::Option {
+            option,
+            text: text.to_string(),
+            reason: "nothing is named; write quantity=value, such as force=2, or leave it out"
+                .to_string(),
+        });
     }
     Ok(found)
 }
