@@ -415,6 +415,48 @@ fn records_that_no_joint_makes_are_refused_before_any_fit() {
     folder.assert_refuses(&["identify", "short.csv", "-o", "new"], &words);
 }
 
+/// Of a few samples neither signs nor rest are known.
+#[test]
+fn the_count_of_samples_is_looked_at_before_what_they_say() {
+    let folder = Folder::new("few samples");
+    folder.put("good.csv", loops(1.0, 1.0).as_bytes());
+    for (count, said) in [(1, "1 sample is"), (4, "4 samples are")] {
+        let backwards = loops(-1.0, 1.0);
+        let rows: Vec<&str> = backwards.lines().take(1 + count).collect();
+        folder.put("few.csv", rows.join("\n").as_bytes());
+        let identify = ["few.csv", said, "at least 20"];
+        folder.assert_refuses(&["identify", "few.csv", "-o", "new"], &identify);
+        let diagnose = ["few.csv", said, "at least 64"];
+        folder.assert_refuses(&["diagnose", "good.csv", "few.csv", "-o", "new"], &diagnose);
+        let dummy = ["diagnose", "good.csv", "--dummy", "few.csv", "-o", "new"];
+        folder.assert_refuses(&dummy, &diagnose);
+    }
+}
+
+#[test]
+fn a_loss_beyond_the_rectangle_of_its_amplitudes_is_refused() {
+    let folder = Folder::new("rectangle");
+    let table = |unit: &str| {
+        let header = format!("# rig\nforce amplitude [N],dissipation [{unit}]");
+        let levels = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|f: f64| {
+            let loss = 1e-3 * f.powf(2.6);
+            format!("{f},{loss:e},{:e}\n", 1e-3 * f)
+        });
+        format!("{header},displacement amplitude [mm]\n{}", levels.concat())
+    };
+    folder.put("table.csv", table("J").as_bytes());
+    let words = [
+        "table.csv, line 3, column 2 `dissipation [J]`",
+        "0.001 J a cycle is more than 4.000e-6 J",
+        "check the unit of dissipation and of displacement amplitude",
+    ];
+    folder.assert_refuses(&["identify", "table.csv", "-o", "new"], &words);
+    folder.assert_refuses(&["diagnose", "table.csv", "-o", "new"], &words);
+    folder.put("table.csv", table("uJ").as_bytes());
+    let right = folder.run(&["identify", "table.csv", "-o", "joint.json"]);
+    assert_eq!(right.status.code(), Some(0), "{right:?}");
+}
+
 #[test]
 fn values_that_no_file_has_a_use_for_are_refused() {
     let folder = Folder::new("no use");

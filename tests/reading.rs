@@ -276,7 +276,7 @@ fn columns_that_are_not_chosen_are_found_by_their_header() {
 #[test]
 fn amplitude_tables_are_read() {
     let content = "# resonance test\nFrequency (Hz);Dissipation (mJ);Force Amplitude (kN);u0 (um)\n\
-                   80,5;2;0,1;5\n80;31;0,2;10\n";
+                   80,5;2;0,1;5\n80;7;0,2;10\n";
     let loaded = read::file(
         &written("table.csv", content.as_bytes()),
         &Options::default(),
@@ -285,7 +285,7 @@ fn amplitude_tables_are_read() {
     let expected = AmplitudeTable {
         name: "table".to_string(),
         force_amplitude: vec![100.0, 200.0],
-        dissipation: vec![0.002, 0.031],
+        dissipation: vec![0.002, 0.007],
         displacement_amplitude: Some(vec![5e-6, 1e-5]),
         frequency: Some(vec![80.5, 80.0]),
     };

@@ -4,6 +4,7 @@ mod dummy;
 mod results;
 mod rig;
 
+use super::fewest::Fewest;
 use super::input::{BesideTable, Records};
 use super::progress::Progress;
 use super::provenance::provenance;
@@ -21,7 +22,7 @@ use crate::saved::{Judgement, Provenance, SavedJoint, write};
 use anyhow::Context;
 use rig::RigLimits;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find what the baseline joint gets wrong, and why.
 #[derive(Debug, clap::Args)]
@@ -58,7 +59,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     inputs.extend(arguments.dummy.as_deref());
     results::admit(&arguments.output, &inputs)?;
     let known = arguments.beside.known()?;
-    let loaded = arguments.records.load()?;
+    let loaded = arguments.records.load(FEWEST)?;
     arguments.beside.of_use(&loaded)?;
     arguments.rig.of_use(&loaded)?;
     let dummy = dummy::load(arguments, &loaded)?;
@@ -78,7 +79,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
                 limits: arguments.rig.limits(),
                 dummy,
             };
-            let records = histories(&loaded)?;
+            let records = histories(&arguments.records.files, &loaded)?;
             let found = diagnose_with(&records, &options, stage)
                 .with_context(|| format!("{}: {NO_JOINT}", arguments.records.named()))?;
             (found, None)
@@ -181,28 +182,25 @@ fn tables(loaded: &[Loaded]) -> Result<Option<Vec<AmplitudeTable>>, BadInput> {
 }
 
 /// Fewest samples that a diagnosis can be made of.
-const FEWEST: usize = 64;
+const FEWEST: Fewest = Fewest::Each(64);
 
-fn histories(loaded: &[Loaded]) -> Result<Vec<Record>, BadInput> {
-    loaded
+fn histories(files: &[PathBuf], loaded: &[Loaded]) -> Result<Vec<Record>, BadInput> {
+    let refuse = |file: &Path, why: &str| Err(BadInput(format!("{}: {why}", file.display())));
+    files
         .iter()
-        .map(|loaded| match &loaded.measurement {
-            Measurement::History(record) if record.len() < FEWEST => Err(BadInput(format!(
-                "record {} has {} samples: a diagnosis takes at least {FEWEST}; give the whole test",
-                record.name,
-                record.len()
-            ))),
-            Measurement::History(record) if flat(&record.force) || flat(&record.displacement) => {
-                Err(BadInput(format!(
-                    "record {} holds a channel that never changes: a joint needs force and displacement that vary",
-                    record.name
-                )))
+        .zip(loaded)
+        .map(|(file, loaded)| match &loaded.measurement {
+            Measurement::History(record) if flat(&record.force) => {
+                refuse(file, "the force never changes: a joint needs one that does")
             }
+            Measurement::History(record) if flat(&record.displacement) => refuse(
+                file,
+                "the displacement never changes: a joint needs one that does",
+            ),
             Measurement::History(record) => Ok(record.clone()),
-            Measurement::Amplitudes(table) => Err(BadInput(format!(
-                "{} is an amplitude table, no time history",
-                table.name
-            ))),
+            Measurement::Amplitudes(_) => {
+                refuse(file, "this is an amplitude table, no time history")
+            }
         })
         .collect()
 }

@@ -5,9 +5,11 @@ mod json;
 mod text;
 
 use super::BadInput;
+use super::fewest::Fewest;
 use super::input::{BesideTable, Records};
 use super::output;
 use super::progress::Progress;
+use crate::identify::family::LEAST_SAMPLES;
 use crate::saved::SavedJoint;
 use found::Found;
 use std::collections::BTreeMap;
@@ -42,7 +44,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     let output = asked.unwrap_or(Path::new("joint.json"));
     output::admit(output, &arguments.records.paths())?;
     let known = arguments.beside.known()?;
-    let loaded = arguments.records.load()?;
+    let loaded = arguments.records.load(Fewest::Together(LEAST_SAMPLES))?;
     arguments.beside.of_use(&loaded)?;
     let preloads = super::preload::notes(&loaded);
     preloads.iter().for_each(|note| output::tell(note));

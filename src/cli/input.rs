@@ -1,11 +1,12 @@
 //! What several subcommands read, and what they say of it.
 
 use super::BadInput;
+use super::fewest::Fewest;
 use crate::identify::table::{Known, at_resonance};
 use crate::joint::Joint;
 use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
-use crate::record::{AmplitudeTable, Measurement};
+use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::saved::SavedJoint;
 use std::path::{Path, PathBuf};
 
@@ -46,8 +47,9 @@ impl Records {
     ///
     /// # Errors
     /// [`ReadError`] of the first bad file; [`BadInput`] for one content under two names: a copy
-    /// would count as a second test, and as data that no fit has seen; or for signs that no joint has.
-    pub fn load(&self) -> anyhow::Result<Vec<Loaded>> {
+    /// would count as a second test, and as data that no fit has seen; for fewer samples than `fewest`; or
+    /// for signs that no joint has.
+    pub fn load(&self, fewest: Fewest) -> anyhow::Result<Vec<Loaded>> {
         let options = self.foreign.options()?;
         let mut loaded: Vec<Loaded> = Vec::new();
         for file in &self.files {
@@ -61,12 +63,15 @@ impl Records {
             loaded.push(next);
         }
         let files = self.files.iter().zip(&loaded);
-        super::signs::admit(
-            files.filter_map(|(file, loaded)| match &loaded.measurement {
+        let histories: Vec<(&Path, &Record)> = files
+            .filter_map(|(file, loaded)| match &loaded.measurement {
                 Measurement::History(record) => Some((file.as_path(), record)),
                 Measurement::Amplitudes(_) => None,
-            }),
-        )?;
+            })
+            .collect();
+        // Of too few samples everything else that can be said is chance.
+        fewest.admit(&histories)?;
+        super::signs::admit(histories)?;
         Ok(loaded)
     }
 

@@ -4,6 +4,7 @@ mod causes;
 mod check;
 mod diagnose;
 mod export;
+mod fewest;
 mod identify;
 pub mod input;
 pub mod output;

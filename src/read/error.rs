@@ -1,31 +1,8 @@
 //! Why a file was refused: where it stands, what stands there, and the way out.
 
 use super::quantity::Quantity;
+use super::spot::Spot;
 use std::path::{Path, PathBuf};
-
-/// A place in a table: file, line and column, both counted from 1.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Spot {
-    /// The file as it was named.
-    pub file: PathBuf,
-    /// Line of the file, comments and blank lines counted.
-    pub line: usize,
-    /// Column, from 1.
-    pub column: usize,
-    /// The column's header as it stands in the file, or what it was declared to be.
-    pub name: String,
-}
-
-impl std::fmt::Display for Spot {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let file = self.file.display();
-        write!(
-            f,
-            "{file}, line {}, column {} `{}`",
-            self.line, self.column, self.name
-        )
-    }
-}
 
 /// Why a file, or an option that describes one, was refused. Checked by `tests/reading.rs`.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -319,6 +296,18 @@ pub enum ReadError {
         /// What it should be.
         quantity: Quantity,
     },
+    /// A loss that no loop within the amplitudes of its row can have.
+    #[error(
+        "{spot}: {value} J a cycle is more than {bound} J, four times force amplitude times displacement amplitude of its row, which a loop that fills the whole rectangle loses; check the unit of dissipation and of displacement amplitude"
+    )]
+    BeyondRectangle {
+        /// The cell of the loss.
+        spot: Spot,
+        /// The loss \[J\].
+        value: String,
+        /// Area of the rectangle \[J\].
+        bound: String,
+    },
     /// `--columns` or `--units` cannot be understood.
     #[error("{option} `{text}`: {reason}")]
     Option {
@@ -346,12 +335,6 @@ impl ReadError {
     }
 }
 
-fn unit_fault(unit: &str, measures: &Option<&'static str>) -> String {
-    match measures {
-        Some(other) => format!("unit `{unit}` measures {other}"),
-        None => format!("unknown unit `{unit}`"),
-    }
-}
 fn columns(count: usize) -> String {
     match count {
         1 => "1 column".to_string(),
@@ -359,3 +342,9 @@ fn columns(count: usize) -> String {
     }
 }
 
+fn unit_fault(unit: &str, measures: &Option<&'static str>) -> String {
+    match measures {
+        Some(other) => format!("unit `{unit}` measures {other}"),
+        None => format!("unknown unit `{unit}`"),
+    }
+}

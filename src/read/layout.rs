@@ -1,10 +1,11 @@
 //! Which column holds what, in which unit.
 
-use super::error::{ReadError, Spot};
+use super::error::ReadError;
 use super::head::Head;
 use super::options::{Choice, Options};
 use super::quantity::{self, Quantity};
 use super::source::Source;
+use super::spot::Spot;
 use super::unit::{self, Unit};
 
 /// A column that will be read.

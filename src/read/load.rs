@@ -1,8 +1,9 @@
 //! The load of a simulation: time and what is prescribed.
 
-use super::error::{ReadError, Spot};
+use super::error::ReadError;
 use super::options::Options;
 use super::quantity::Quantity;
+use super::spot::Spot;
 use super::{Opened, numbers};
 use std::path::{Path, PathBuf};
 

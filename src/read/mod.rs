@@ -12,13 +12,16 @@ mod number;
 mod numbers;
 mod options;
 mod quantity;
+mod rectangle;
 mod source;
+mod spot;
 mod unit;
 
-pub use error::{ReadError, Spot};
+pub use error::ReadError;
 pub use load::{LoadTable, load_table};
 pub use options::{Choice, Options};
 pub use quantity::Quantity;
+pub use spot::Spot;
 pub use unit::{Dimension, Unit};
 
 use crate::record::{AmplitudeTable, Measurement, Record};
@@ -45,12 +48,12 @@ const WITH_HISTORY: [Quantity; 4] = [
     Quantity::Acceleration,
 ];
 const WITH_AMPLITUDES: [Quantity; 2] = [Quantity::DisplacementAmplitude, Quantity::Frequency];
-
 /// Where `--columns` names one of a table, the file is no history.
 const A_TABLE: [(Quantity, Quantity); 2] = [
     (Quantity::ForceAmplitude, Quantity::Force),
     (Quantity::Dissipation, Quantity::Force),
 ];
+
 /// Reads a time history or an amplitude table, whichever the header (or `--columns`) declares.
 ///
 /// # Errors
@@ -84,13 +87,15 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
         let required = [Quantity::ForceAmplitude, Quantity::Dissipation];
         let columns = layout.columns(&required, &WITH_AMPLITUDES, &mut notes)?;
         let mut numbers = numbers::read(&source, &head, &columns, &mut notes)?;
-        Measurement::Amplitudes(AmplitudeTable {
+        let table = AmplitudeTable {
             name: source.name(),
             force_amplitude: numbers.take(Quantity::ForceAmplitude).unwrap_or_default(),
             dissipation: numbers.take(Quantity::Dissipation).unwrap_or_default(),
             displacement_amplitude: numbers.take(Quantity::DisplacementAmplitude),
             frequency: numbers.take(Quantity::Frequency),
-        })
+        };
+        rectangle::admit(&table, &source, &columns, &numbers.lines)?;
+        Measurement::Amplitudes(table)
     } else {
         return Err(layout.missing(wanted(&layout)));
     };

@@ -1,11 +1,12 @@
 //! The rows of numbers, in SI, checked one by one.
 
-use super::error::{ReadError, Spot};
+use super::error::ReadError;
 use super::head::{self, Head};
 use super::layout::Column;
 use super::number::{self, Fault, Mark};
 use super::quantity::Quantity;
 use super::source::Source;
+use super::spot::Spot;
 
 /// Values in SI, one vector per column of the layout, and the line of the file of each row.
 pub struct Numbers {

@@ -1,6 +1,6 @@
 //! The dummy beside the records.
 
-use super::{Diagnose, histories};
+use super::{Diagnose, FEWEST, histories};
 use crate::cli::{BadInput, input, signs};
 use crate::read::{self, Loaded};
 use crate::record::{Measurement, Record};
@@ -29,7 +29,10 @@ pub fn load(arguments: &Diagnose, records: &[Loaded]) -> anyhow::Result<Option<R
         return Err(BadInput(message).into());
     }
     input::tell_notes(file, &loaded.notes);
-    let mut records = histories(std::slice::from_ref(&loaded))?;
-    signs::admit(records.iter().map(|record| (file.as_path(), record)))?;
-    Ok(records.pop())
+    if let Measurement::History(record) = &loaded.measurement {
+        let named = [(file.as_path(), record)];
+        FEWEST.admit(&named)?;
+        signs::admit(named)?;
+    }
+    Ok(histories(std::slice::from_ref(file), std::slice::from_ref(&loaded))?.pop())
 }

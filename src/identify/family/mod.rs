@@ -85,7 +85,8 @@ const DEEP: f64 = 0.3;
 /// Fullness of the loops from which on the same holds: an elastoplastic joint has it at 1.2 times
 /// its yield displacement.
 const FULL: f64 = 0.17;
-const LEAST_SAMPLES: usize = 20;
+/// Samples of all records together below which nothing is fitted.
+pub const LEAST_SAMPLES: usize = 20;
 /// Samples judged where a fit is one of many numbers of a diagnosis.
 const FEW_SAMPLES: usize = 3000;
 
