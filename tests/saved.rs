@@ -253,6 +253,15 @@ fn refusals_name_place_value_and_way_out() {
             }
         }
     }
+    let below = read(
+        &changed("\"slip_force\": 1000.0", "\"slip_force\": -2"),
+        "x",
+    );
+    let message = below.expect_err("a negative slip force").to_string();
+    assert!(
+        message.contains("a number in N, ") && message.len() < 100,
+        "{message}"
+    );
     for text in ["[]", "3", "null", "\"joint\""] {
         assert!(
             matches!(read(text, "x"), Err(SavedError::Unusable { .. })),
@@ -263,6 +272,38 @@ fn refusals_name_place_value_and_way_out() {
         read("", "x"),
         Err(SavedError::Syntax { line: 1, .. })
     ));
+}
+
+#[test]
+fn a_byte_order_mark_is_read_over() {
+    let whole = saved(sliders(), 3.5, vec![]);
+    assert_eq!(read(&format!("\u{feff}{}", write(&whole)), "x"), Ok(whole));
+}
+
+#[test]
+fn a_bad_value_of_a_list_is_named_with_its_place() {
+    let density = Density::Sliders(Sliders::new(vec![2.0, 3.0], vec![0.25, 0.5], 0.0).unwrap());
+    let text = write(&saved(density, 3.5, vec![]));
+    for (from, to, expected) in [
+        (
+            "[2.0, 3.0]",
+            "[2.0, -3.0]",
+            "$.density: parameter `weight[1]` is -3",
+        ),
+        (
+            "[0.25, 0.5]",
+            "[0, 0.5]",
+            "$.density: parameter `slip_at[0]` is 0",
+        ),
+    ] {
+        assert!(text.contains(from), "{text}");
+        let refused = read(&text.replace(from, to), "x");
+        let message = refused.expect_err("no slider").to_string();
+        assert!(
+            message.contains(expected) && message.len() < 120,
+            "{message}"
+        );
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@ use super::entry::Entry;
 use super::origin::{intervals, provenance};
 use super::{FORMAT, Provenance, SavedError, SavedJoint};
 use crate::causes;
+use crate::joint::error::admitted;
 use crate::joint::{
     Acting, Density, Effect, FourParameter, Joint, Parameter, PowerLaw, PowerLawTable, Sliders,
 };
@@ -27,6 +28,8 @@ fn read_with(
     path: &str,
     find: impl Fn(&str) -> Option<&'static dyn Effect>,
 ) -> Result<SavedJoint, SavedError> {
+    // Editors of some systems write a byte order mark.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|error| SavedError::Syntax {
         file: path.into(),
         line: error.line(),
@@ -161,7 +164,11 @@ fn parameters(entry: &Entry, glossary: &[Parameter]) -> Result<Vec<f64>, SavedEr
             upper,
             ..
         } = parameter;
-        let needed = format!("a number in {unit} between {lower} and {upper}");
+        let unit = match *unit {
+            "1" => String::new(),
+            unit => format!(" in {unit}"),
+        };
+        let needed = format!("a number{unit}, {}", admitted(*lower, *upper));
         // A refinement of a law may be left out: it then drops out of it.
         if let (None, Some(neutral)) = (entry.find(name), parameter.neutral) {
             values.push(neutral);

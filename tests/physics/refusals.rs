@@ -33,16 +33,16 @@ fn parameters_outside_their_glossary() {
             2.0, 0.0, 1.0, stiffness, places, density,
         ))
     };
-    assert_eq!(table(&[1.0, 1.0], &[1.0, 1.0], 9.0), "break_free");
+    assert_eq!(table(&[1.0, 1.0], &[1.0, 1.0], 9.0), "break_free[1]");
     assert_eq!(table(&[1.0, 2.0], &[1.0], 9.0), "density count");
     assert_eq!(table(&[], &[], 9.0), "density count");
-    assert_eq!(table(&[1.0, 2.0], &[1.0, -1.0], 9.0), "density");
+    assert_eq!(table(&[1.0, 2.0], &[1.0, -1.0], 9.0), "density[1]");
     assert_eq!(table(&[1.0, 3.0], &[2.0, 2.0], 5.9), "stiffness");
     assert_eq!(table(&[1.0, 3.0], &[2.0, 2.0], 1.0), "stiffness");
     let sliders =
         |w: &[f64], d: &[f64], elastic| refused(Sliders::new(w.into(), d.into(), elastic));
-    assert_eq!(sliders(&[1.0, 0.0], &[1.0, 2.0], 0.0), "weight");
-    assert_eq!(sliders(&[1.0, 1.0], &[1.0, f64::NAN], 0.0), "slip_at");
+    assert_eq!(sliders(&[1.0, 0.0], &[1.0, 2.0], 0.0), "weight[1]");
+    assert_eq!(sliders(&[1.0, 1.0], &[1.0, f64::NAN], 0.0), "slip_at[1]");
     assert_eq!(sliders(&[1.0], &[1.0], -1.0), "elastic");
     assert_eq!(sliders(&[1.0], &[1.0, 2.0], 0.0), "slip_at count");
 }

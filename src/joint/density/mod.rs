@@ -151,11 +151,24 @@ impl VirginCurve for Density {
 
 /// Refuses a value outside its glossary's range, or no number at all.
 fn checked(parameter: &Parameter, value: f64) -> Result<(), JointError> {
+    named(parameter, value, || parameter.name.into())
+}
+
+/// [`checked`] for a value of a list; the refusal names its place in it, from 0.
+fn checked_at(parameter: &Parameter, place: usize, value: f64) -> Result<(), JointError> {
+    named(parameter, value, || format!("{}[{place}]", parameter.name))
+}
+
+fn named(
+    parameter: &Parameter,
+    value: f64,
+    name: impl FnOnce() -> String,
+) -> Result<(), JointError> {
     if (parameter.lower..=parameter.upper).contains(&value) {
         Ok(())
     } else {
         Err(JointError::OutOfRange {
-            name: parameter.name.into(),
+            name: name(),
             value,
             lower: parameter.lower,
             upper: parameter.upper,

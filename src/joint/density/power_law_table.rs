@@ -4,7 +4,7 @@ use super::cells::graded;
 use super::power_law::{COEFFICIENT, EXPONENT, SLIDER_STIFFNESS, STIFFNESS, cut_seed};
 use super::seed::Seed;
 use super::small_force::SmallForce;
-use super::{Sliders, checked};
+use super::{Sliders, checked, checked_at};
 use crate::joint::parameters::Parameter;
 use crate::joint::simulation::JointError;
 use crate::joint::virgin::VirginCurve;
@@ -115,11 +115,11 @@ impl PowerLawTable {
             });
         }
         let mut lowest = BREAK_FREE;
-        for &phi in &break_free {
-            checked(&lowest, phi)?;
+        for (j, (&phi, &rho)) in break_free.iter().zip(&density).enumerate() {
+            checked_at(&lowest, j, phi)?;
             lowest.lower = phi.next_up();
+            checked_at(&DENSITY, j, rho)?;
         }
-        density.iter().try_for_each(|&rho| checked(&DENSITY, rho))?;
 
         let seed = cut_seed(
             coefficient,

@@ -1,7 +1,7 @@
 //! A finite set of sliders: the discrete density, and the cells of every other one.
 
 use super::cells::graded;
-use super::checked;
+use super::{checked, checked_at};
 use crate::joint::parameters::Parameter;
 use crate::joint::simulation::JointError;
 use crate::joint::virgin::VirginCurve;
@@ -83,7 +83,7 @@ impl Sliders {
     /// Sliders `(w_j \[N/m\], d_j \[m\])` in any order with the elastic remainder \[N/m\].
     ///
     /// # Errors
-    /// [`JointError::OutOfRange`] for a weight or slip displacement that is not positive, a
+    /// [`JointError::OutOfRange`] for a weight or slip displacement that is not positive (with its place), a
     /// negative remainder, or vectors of different length (named `slip_at count`).
     pub fn new(weight: Vec<f64>, slip_at: Vec<f64>, elastic: f64) -> Result<Sliders, JointError> {
         if weight.len() != slip_at.len() {
@@ -95,8 +95,10 @@ impl Sliders {
                 upper: count,
             });
         }
-        weight.iter().try_for_each(|&w| checked(&WEIGHT, w))?;
-        slip_at.iter().try_for_each(|&d| checked(&SLIP_AT, d))?;
+        for (j, (&w, &d)) in weight.iter().zip(&slip_at).enumerate() {
+            checked_at(&WEIGHT, j, w)?;
+            checked_at(&SLIP_AT, j, d)?;
+        }
         checked(&ELASTIC, elastic)?;
         let mut order: Vec<usize> = (0..weight.len()).collect();
         order.sort_by(|&a, &b| slip_at[a].total_cmp(&slip_at[b]));
