@@ -5,7 +5,7 @@ use super::full_slip::full_slip;
 use crate::identify::initial::initial_stiffness;
 use crate::identify::linearised::{RIGHT_TO, lasting};
 use crate::identify::{Estimated, FamilyFit, Fit, Form, Problem, family, series};
-use crate::joint::{Drive, Joint, VirginCurve};
+use crate::joint::{Drive, FourParameter, Joint, VirginCurve};
 use crate::record::Record;
 use crate::record::cycles::rms;
 
@@ -65,11 +65,15 @@ pub fn joint_parameters(
     for told in &found.estimates {
         if let ("exponent" | "dissipation_coefficient", Some(interval)) = (told.name, told.interval)
         {
+            let widened = Estimated {
+                interval: Some(widened(told, interval, wider)),
+                ..told.clone()
+            };
             estimates.push(Estimate {
                 name: told.name.to_string(),
                 value: told.value,
                 unit: unit(told, &found),
-                interval: Some(widened(told, interval, wider)),
+                interval: widened.within(FourParameter::PARAMETERS).interval,
             });
         }
     }

@@ -1,5 +1,7 @@
 //! Intervals: Student's factor, and a number with what the data say about it.
 
+use crate::joint::parameters::Parameter;
+
 /// Factor of the two-sided 95 % interval of a normal variable.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
@@ -96,6 +98,17 @@ impl Estimated {
         }
     }
 
+    /// The interval cut to what a glossary admits of the number of that name; a value that it does not admit keeps its
+    /// interval as it is.
+    pub fn within(mut self, glossary: &[Parameter]) -> Estimated {
+        let own = glossary.iter().find(|p| p.name == self.name);
+        let admits = |p: &&Parameter| (p.lower..=p.upper).contains(&self.value);
+        if let (Some(p), Some((lower, upper))) = (own.filter(admits), self.interval) {
+            self.interval = Some((lower.max(p.lower), upper.min(p.upper)));
+        }
+        self
+    }
+
     /// Half the width of the interval.
     pub fn half_width(&self) -> Option<f64> {
         self.interval.map(|(lower, upper)| 0.5 * (upper - lower))
@@ -111,6 +124,7 @@ impl Estimated {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::joint::FourParameter;
 
     #[test]
     fn student_factors_are_those_of_the_tables() {
@@ -122,5 +136,16 @@ mod tests {
             );
         }
         assert!((student_95(1_000_000) - NORMAL_95).abs() < 1e-5);
+    }
+
+    #[test]
+    fn an_interval_ends_where_the_glossary_does() {
+        let exponent = |value: f64| Estimated::symmetric("exponent", "χ", "1", value, 0.5);
+        let cut = |value: f64| exponent(value).within(FourParameter::PARAMETERS).interval;
+        assert_eq!(cut(-0.5), Some((-0.999, 0.0)));
+        assert_eq!(cut(0.0), Some((-0.5, 0.5)));
+        assert_eq!(cut(-1.5), Some((-2.0, -1.0)));
+        let other = exponent(-0.9).within(&[]);
+        assert_eq!(other, exponent(-0.9));
     }
 }

@@ -119,7 +119,13 @@ fn open(estimate: &Estimate, (lower, upper): (f64, f64), scale: &Scale) -> Shown
             value,
             format!("at most {}", quantity(upper, &estimate.unit)),
         ),
-        (true, true) => (value, "see the interval".to_owned()),
+        (true, true) => {
+            let [from, to] = &interval;
+            (
+                value,
+                format!("between {}", scale.attach(&format!("{from} and {to}"))),
+            )
+        }
         (false, false) => (value, "not bounded by the data".to_owned()),
     };
     Shown {
@@ -226,6 +232,8 @@ mod tests {
         let nan = estimated(f64::NAN, "N", Some((1.0, 2.0)));
         assert_eq!(nan.value, "not determined");
         assert_eq!(open.error, "at least 500 mN");
+        let outside = estimated(9.16e-6, "m", Some((1e-5, 1.2e-5)));
+        assert_eq!(outside.error, "between 10.0 and 12.0 µm");
         let point = estimated(2.0, "N", Some((2.0, 2.0)));
         assert_eq!(point.value, "2.00 N");
         let about_zero = estimated(0.0, "N", Some((-1.0, 1.0)));

@@ -6,7 +6,7 @@ use crate::identify::problem::Problem;
 use crate::identify::seed::{self, Seed};
 use crate::identify::table::{self, Known};
 use crate::identify::{Form, baseline};
-use crate::joint::{Drive, Joint};
+use crate::joint::{Drive, FourParameter, Joint};
 use crate::read::Loaded;
 use crate::record::outliers::{stand_alone, struck_out};
 use crate::record::{AmplitudeTable, Measurement, Record};
@@ -171,9 +171,9 @@ impl Found {
         })
     }
 
-    /// The numbers of the joint: the fit's, or without one the procedure's.
+    /// The numbers of the joint: the fit's, or without one the procedure's; no interval reaches beyond the glossary.
     pub fn estimates(&self) -> Vec<Estimated> {
-        match &self.fit {
+        let estimates: Vec<Estimated> = match &self.fit {
             Some(fit) => fit.estimates.clone(),
             None => self
                 .seed
@@ -187,7 +187,9 @@ impl Found {
                         .flat_map(|law| [law.coefficient.clone(), law.exponent.clone()]),
                 )
                 .collect(),
-        }
+        };
+        let admitted = |e: Estimated| e.within(FourParameter::PARAMETERS);
+        estimates.into_iter().map(admitted).collect()
     }
 }
 

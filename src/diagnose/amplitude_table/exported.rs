@@ -100,7 +100,8 @@ pub fn glossary(shown: Shown) -> &'static [Parameter] {
     find(shown.name()).map_or(&[][..], |cause| cause.effect().parameters())
 }
 
-/// Parameters of an effect with the intervals of their values over refits of simulated tables.
+/// Parameters of an effect with the intervals of their values over refits of simulated tables; without one where
+/// no refit moves the value: it was taken from a grid, or a refinement that a table does not show is absent.
 pub fn estimates(shown: Shown, values: &[f64], refits: &[Vec<f64>]) -> Vec<Estimate> {
     let interval = |index: usize| {
         let mut over: Vec<f64> = refits
@@ -109,7 +110,8 @@ pub fn estimates(shown: Shown, values: &[f64], refits: &[Vec<f64>]) -> Vec<Estim
             .collect();
         over.sort_by(f64::total_cmp);
         let at = |share: f64| over.get((share * over.len() as f64) as usize).copied();
-        at(0.025).zip(at(0.975)).filter(|_| over.len() >= 40)
+        let bounds = at(0.025).zip(at(0.975)).filter(|_| over.len() >= 40);
+        bounds.filter(|(lower, upper)| lower < upper)
     };
     glossary(shown)
         .iter()
