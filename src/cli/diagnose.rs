@@ -63,8 +63,8 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     arguments.beside.of_use(&loaded)?;
     arguments.rig.of_use(&loaded)?;
     let dummy = dummy::load(arguments, &loaded)?;
-    let preloads = super::preload::notes(&loaded);
-    preloads.iter().for_each(|note| output::tell(note));
+    let noticed = super::noticed::notes(&loaded);
+    noticed.iter().for_each(|note| output::tell(note));
     let library = library();
     let progress = Progress::new();
     let stage = |words: &str| progress.stage(words);
@@ -85,7 +85,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
             (found, None)
         }
     };
-    findings.notes.extend(preloads);
+    findings.notes.extend(noticed);
     for (entry, loaded) in findings.records.iter_mut().zip(&loaded) {
         entry.2.clone_from(&loaded.sha256);
     }

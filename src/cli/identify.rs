@@ -46,14 +46,14 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     let known = arguments.beside.known()?;
     let loaded = arguments.records.load(Fewest::Together(LEAST_SAMPLES))?;
     arguments.beside.of_use(&loaded)?;
-    let preloads = super::preload::notes(&loaded);
-    preloads.iter().for_each(|note| output::tell(note));
+    let noticed = super::noticed::notes(&loaded);
+    noticed.iter().for_each(|note| output::tell(note));
     let progress = Progress::new();
     progress.stage(&format!("identifying from {} record(s)", loaded.len()));
     let mut found = Found::from(&loaded, &known)
         .map_err(|error| BadInput(format!("{}: {error}", arguments.records.named())))?;
     drop(progress);
-    found.noticed.extend(preloads);
+    found.noticed.extend(noticed);
     if let (Some(file), Err(why)) = (asked, &found.joint) {
         return Err(BadInput(format!(
             "{}: there is no joint to write: {why}; without `-o` the report alone is printed",

@@ -5,14 +5,17 @@ mod check;
 mod diagnose;
 mod export;
 mod fewest;
+mod gaps;
 mod identify;
 pub mod input;
+mod noticed;
 pub mod output;
 mod preload;
 mod progress;
 mod provenance;
 mod signs;
 mod simulate;
+mod stiffness;
 
 use clap::{Parser, Subcommand};
 use std::panic::{AssertUnwindSafe, catch_unwind};
