@@ -44,9 +44,7 @@ fn measured(name: &str, force: &[f64], displacement: &[f64], delay: f64, seed: u
         time: Some((0..force.len()).map(|i| i as f64 * STEP).collect()),
         displacement: displacement.collect(),
         force: force.to_vec(),
-        preload: None,
-        temperature: None,
-        acceleration: None,
+        ..Record::default()
     }
 }
 
