@@ -3,7 +3,7 @@
 use super::investigation::{Investigation, however_worn};
 use super::prepare::form;
 use super::trials::ALARM;
-use crate::identify::{as_driven, refit};
+use crate::identify::{as_driven, refit_below};
 use crate::record::Record;
 
 /// Searches for causes in records however they begin and wear, with the drive as it leaves less between samples.
@@ -47,7 +47,7 @@ impl Investigation {
             record.between.straight = !record.between.straight;
             record.look_between(form);
         }
-        let otherwise = refit(&train, best, best.effects.clone());
-        otherwise.misfit < best.misfit - ALARM * self.dispersion()
+        let bound = best.misfit - ALARM * self.dispersion();
+        refit_below(&train, best, best.effects.clone(), bound).misfit < bound
     }
 }

@@ -14,8 +14,13 @@ const FASTER: [f64; 2] = [3.0, 10.0];
 /// What would settle the questions, in a clause that ends in a full stop: the limits that bind, found by trying
 /// others, and what is no matter of the rig.
 pub fn instead(told: &Told, asked: &[Question], limits: &Limits, dummy_is_there: bool) -> String {
-    let mut ways = wider(told, asked, limits);
-    let binds = !ways.is_empty();
+    // What may merely be hidden is not worth the search, unless the rig has no program at all.
+    let sought = told.ambiguous || told.rigs(limits).iter().all(|rig| rig.menu().is_empty());
+    let mut ways = match sought {
+        true => wider(told, asked, limits),
+        false => Vec::new(),
+    };
+    let binds = !ways.is_empty() || !sought;
     let is = |kind: Kind| {
         asked.iter().any(|question| {
             let rival = find(&question.rival);

@@ -112,7 +112,9 @@ impl Told<'_> {
                 .collect()
         };
         let missed = marked(false);
-        if !missed.is_empty() {
+        if !missed.is_empty() && !self.ambiguous {
+            plan.keep(&served);
+        } else if !missed.is_empty() {
             // A program that need not try what is hopeless does more for the rest.
             let again = self.planned(marked(true), rigs);
             match again.served().contains(&false) {
