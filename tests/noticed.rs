@@ -1,18 +1,14 @@
 //! What records say of themselves, a gap in time or a stiffness off by a unit: both commands tell it, on standard
 //! error and in the result.
 
+mod bundled;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The bundled record twice: as it is, and later in time from its middle on, with `scale` times the displacement.
 fn records(name: &str, (later, scale): (f64, f64)) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("noticed {name}"));
-    std::fs::create_dir_all(&folder).expect("a folder for the test");
-    let bolt = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bolt-1.csv");
-    let text = std::fs::read_to_string(bolt).expect("the bundled record");
-    let mut rows = text.lines().filter(|line| !line.starts_with('#'));
-    let header = rows.next().expect("a header");
-    let rows: Vec<&str> = rows.collect();
+    let (folder, text, header, rows) = bundled::bolt(&format!("noticed {name}"));
     let changed = rows.iter().enumerate().map(|(i, row)| {
         let cells: Vec<f64> = row
             .split(',')

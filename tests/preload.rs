@@ -1,17 +1,13 @@
 //! Measured preloads: tests of different preloads are no tests of one joint, and both commands say so.
 
-use std::path::{Path, PathBuf};
+mod bundled;
+
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Two parts of a bundled record, at the preloads of `preload`.
 fn records(name: &str, preload: [f64; 2]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("preload {name}"));
-    std::fs::create_dir_all(&folder).expect("a folder for the test");
-    let bolt = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bolt-1.csv");
-    let text = std::fs::read_to_string(bolt).expect("the bundled record");
-    let mut rows = text.lines().filter(|line| !line.starts_with('#'));
-    let header = rows.next().expect("a header");
-    let rows: Vec<&str> = rows.collect();
+    let (folder, _, header, rows) = bundled::bolt(&format!("preload {name}"));
     for (number, preload) in preload.iter().enumerate() {
         let part = &rows[..rows.len() - number];
         let part = part.iter().map(|row| format!("{row},{preload}\n"));

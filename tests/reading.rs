@@ -258,6 +258,11 @@ fn foreign_files_are_read_by_their_columns() {
 fn columns_that_are_not_chosen_are_found_by_their_header() {
     let content = "t [s],F1 [kN],F [kN],u [mm]\n0,1,9,1.5\n.5,-2.5,9,-2\n1,0,9,0\n";
     assert_is_the_same_test(&history_by("chosen.csv", content, &options("force=2", "")));
+    // Time in no unit that is known is left out where others are chosen, and needed where none are.
+    let bare = "time,F [kN],u [mm]\n0,1,1.5\n.5,-2.5,-2\n1,0,0\n";
+    let record = history_by("bare.csv", bare, &options("force=2,displacement=3", ""));
+    assert_eq!(record.time, None);
+    assert!(read::file(&written("bare.csv", bare.as_bytes()), &Options::default()).is_err());
     // A load is driven by what is chosen alone.
     let path = written("chosen load.csv", content.as_bytes());
     let load = read::load_table(&path, &options("displacement=4", "")).expect("a good load");

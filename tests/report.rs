@@ -471,6 +471,25 @@ fn words(text: &str) -> String {
 }
 
 #[test]
+fn what_slow_noise_was_granted_is_told() {
+    let told = |times: f64| {
+        let mut found = clean();
+        found.baseline.train_rms = times * found.noise.rms;
+        words(&text::render(&found))
+    };
+    let slow = told(3.1);
+    assert!(
+        slow.contains("what is left is 3.1 times the noise"),
+        "{slow}"
+    );
+    let plain = told(1.3);
+    assert!(
+        plain.contains("What remains Nothing beyond the noise."),
+        "{plain}"
+    );
+}
+
+#[test]
 fn text_has_the_verdict_first_and_fits_a_screen() {
     for (findings, first) in [
         (clean(), "CLEAN. Nothing beyond the noise."),
@@ -499,7 +518,7 @@ fn text_has_the_verdict_first_and_fits_a_screen() {
         "6.02 µm  +0.48 / -0.12 µm (5.0 %)",
         "0.0400  not bounded by the data",
         "not to be told from: cubic stiffness",
-        "Changes 7.1 % of the energy per cycle; without it the misfit rises by 812 noise variances",
+        "Changes 7.1 % of the dissipated energy; without it the misfit rises by 812 noise variances",
         "The error on unseen data falls by 71 %.",
         "122 nm → 35.0 nm, ratio 0.287 (95 %: 0.250 … 0.331)",
         "Energy per cycle off by 9.2 % before, 1.1 % after.",

@@ -59,7 +59,7 @@ pub struct NamedCause {
     pub ambiguous_with: Vec<String>,
     /// Fall of the misfit, in noise variances, when this cause joins the others.
     pub evidence: f64,
-    /// Share of the record's dissipated energy per cycle that the cause changes.
+    /// Share of the energy dissipated in all cycles that the cause changes.
     pub matters: f64,
 }
 

@@ -199,12 +199,13 @@ pub fn energy(form: Form, input: &[f64], judged: &[f64], from: usize, to: usize)
     (from + 1..to).map(|i| leg(i - 1, i)).sum::<f64>() + leg(to - 1, from)
 }
 
-/// Mean share by which taking the effects away changes the energy per cycle of the fitted joint.
+/// Share of the energy that the fitted joint dissipates in all cycles by which taking an effect away changes it,
+/// `Σ |D - D_without| / Σ D`: cycles count by what they dissipate, for of one that hardly does any change is many times it.
 pub fn share_of_energy(problem: &Problem, fit: &Fit, without: usize) -> f64 {
     let mut less = fit.clone();
     less.effects.remove(without);
     let (with, without) = (fit.predict(problem), less.predict(problem));
-    let (mut share, mut count) = (0.0, 0.0);
+    let (mut changed, mut dissipated) = (0.0, 0.0);
     for k in 0..problem.records.len() {
         let (input, _) = problem.channels(k);
         for cycle in cycles(input) {
@@ -212,10 +213,13 @@ pub fn share_of_energy(problem: &Problem, fit: &Fit, without: usize) -> f64 {
             let all = energy(form, input, &with[k].judged, cycle.start, cycle.end);
             let rest = energy(form, input, &without[k].judged, cycle.start, cycle.end);
             if all > 0.0 {
-                share += ((all - rest) / all).abs();
-                count += 1.0;
+                changed += (all - rest).abs();
+                dissipated += all;
             }
         }
     }
-    if count > 0.0 { share / count } else { 0.0 }
+    match dissipated > 0.0 {
+        true => changed / dissipated,
+        false => 0.0,
+    }
 }

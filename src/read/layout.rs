@@ -85,7 +85,7 @@ impl<'a> Layout<'a> {
     ///
     /// # Errors
     /// [`ReadError::MissingColumn`]; [`ReadError::MissingUnit`], [`ReadError::UnknownUnit`] for
-    /// the required ones and for time.
+    /// the required ones and for time, unless others are chosen and time is not.
     pub fn columns(
         &self,
         required: &[Quantity],
@@ -97,8 +97,12 @@ impl<'a> Layout<'a> {
         }
         let mut columns = Vec::new();
         for (quantity, index) in &self.found {
-            let is_needed = required.contains(quantity) || *quantity == Quantity::Time;
-            if !is_needed && !optional.contains(quantity) {
+            // Who chooses columns and leaves time out has said how much of it is needed.
+            let asked = self.options.columns.is_empty();
+            let asked = asked || self.options.columns.iter().any(|(of, _)| of == quantity);
+            let is_needed = required.contains(quantity) || *quantity == Quantity::Time && asked;
+            let is_of_use = *quantity == Quantity::Time || optional.contains(quantity);
+            if !is_needed && !is_of_use {
                 continue;
             }
             match self.unit(*quantity, *index) {

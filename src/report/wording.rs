@@ -193,16 +193,28 @@ pub(super) fn left_out_sentence(findings: &Findings) -> String {
 /// What the cause changes and how surely it is there.
 pub(super) fn weight_sentence(cause: &NamedCause) -> String {
     format!(
-        "Changes {} of the energy per cycle; without it the misfit rises by {} noise variances.",
+        "Changes {} of the dissipated energy; without it the misfit rises by {} noise variances.",
         share(cause.matters),
         number(cause.evidence, 3)
     )
 }
 
+/// Times the noise as it is told that a clean joint's baseline may leave in rms before it is said that slow noise was
+/// granted: of fifty clean records of another laboratory none left 1.4.
+const SLOW_NOISE: f64 = 2.0;
+
 /// The rest, as a share of what could be explained.
 pub(super) fn rest_sentence(findings: &Findings) -> String {
     if findings.verdict == Verdict::Clean {
-        return "Nothing beyond the noise.".to_owned();
+        let times = findings.baseline.train_rms / findings.noise.rms;
+        return match times > SLOW_NOISE {
+            true => format!(
+                "Nothing that stands out of slow noise: what is left is {} times the noise that is told by its fast \
+                 part, and too few cycles repeat to part slow noise from an effect.",
+                number(times, 2)
+            ),
+            false => "Nothing beyond the noise.".to_owned(),
+        };
     }
     let beyond = match findings.verdict {
         Verdict::Explained => " beyond what noise may leave",
