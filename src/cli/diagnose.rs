@@ -166,10 +166,7 @@ fn without_library(drive: Drive) -> String {
 fn tables(loaded: &[Loaded]) -> Result<Option<Vec<AmplitudeTable>>, BadInput> {
     let tables: Vec<AmplitudeTable> = loaded
         .iter()
-        .filter_map(|loaded| match &loaded.measurement {
-            Measurement::Amplitudes(table) => Some(table.clone()),
-            Measurement::History(_) => None,
-        })
+        .filter_map(|loaded| loaded.measurement.table().cloned())
         .collect();
     match tables.len() {
         0 => Ok(None),

@@ -1,20 +1,15 @@
 //! Gaps in the time of a record: what the joint went through there nobody knows.
 
 use crate::read::Loaded;
+use crate::record::Record;
 use crate::record::written::{number, quantity};
-use crate::record::{Measurement, Record};
 
 /// Times the usual step of a record's time from which on a step is a gap.
 const MANY_STEPS: f64 = 20.0;
 
 /// What is said of the records' gaps, a sentence for each record that has any: its longest, and how many more.
 pub fn notes(loaded: &[Loaded]) -> Vec<String> {
-    let records = loaded
-        .iter()
-        .filter_map(|loaded| match &loaded.measurement {
-            Measurement::History(record) => Some(record),
-            Measurement::Amplitudes(_) => None,
-        });
+    let records = loaded.iter().filter_map(|l| l.measurement.history());
     records.filter_map(note).collect()
 }
 
@@ -45,6 +40,7 @@ fn note(record: &Record) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Measurement;
 
     fn told(time: Vec<f64>) -> Vec<String> {
         let record = Record {

@@ -6,7 +6,7 @@ use crate::identify::table::{Known, at_resonance};
 use crate::joint::Joint;
 use crate::joint::error::shown;
 use crate::read::{self, Loaded, Options, ReadError};
-use crate::record::{AmplitudeTable, Measurement, Record};
+use crate::record::{AmplitudeTable, Record};
 use crate::saved::SavedJoint;
 use std::path::{Path, PathBuf};
 
@@ -64,10 +64,7 @@ impl Records {
         }
         let files = self.files.iter().zip(&loaded);
         let histories: Vec<(&Path, &Record)> = files
-            .filter_map(|(file, loaded)| match &loaded.measurement {
-                Measurement::History(record) => Some((file.as_path(), record)),
-                Measurement::Amplitudes(_) => None,
-            })
+            .filter_map(|(file, loaded)| Some((file.as_path(), loaded.measurement.history()?)))
             .collect();
         // Of too few samples everything else that can be said is chance.
         fewest.admit(&histories)?;
@@ -141,10 +138,7 @@ impl BesideTable {
     pub fn of_use(&self, loaded: &[Loaded]) -> Result<(), BadInput> {
         let tables: Vec<&AmplitudeTable> = loaded
             .iter()
-            .filter_map(|loaded| match &loaded.measurement {
-                Measurement::Amplitudes(table) => Some(table),
-                Measurement::History(_) => None,
-            })
+            .filter_map(|loaded| loaded.measurement.table())
             .collect();
         let of_stiffness =
             |table: &&AmplitudeTable| table.displacement_amplitude.is_none() || at_resonance(table);

@@ -1,7 +1,6 @@
 //! Records whose own preload says that they are not of one joint.
 
 use crate::read::Loaded;
-use crate::record::Measurement;
 use crate::record::cycles::rms;
 use crate::record::written::{percent, quantity};
 
@@ -63,12 +62,10 @@ impl Preload<'_> {
 pub fn notes(loaded: &[Loaded]) -> Vec<String> {
     let preloads: Vec<Preload> = loaded
         .iter()
-        .filter_map(|loaded| match &loaded.measurement {
-            Measurement::History(record) => {
-                let channel = record.preload.as_deref().filter(|p| !p.is_empty())?;
-                Some(Preload::of(&record.name, channel))
-            }
-            Measurement::Amplitudes(_) => None,
+        .filter_map(|loaded| {
+            let record = loaded.measurement.history()?;
+            let channel = record.preload.as_deref().filter(|p| !p.is_empty())?;
+            Some(Preload::of(&record.name, channel))
         })
         .collect();
     let mut notes = Vec::new();
@@ -103,7 +100,7 @@ pub fn notes(loaded: &[Loaded]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Record;
+    use crate::record::{Measurement, Record};
 
     fn record(name: &str, preload: impl Fn(usize) -> f64) -> Loaded {
         Loaded {

@@ -1,9 +1,9 @@
 //! Records whose stiffness differs so much that one of them is in another unit.
 
 use crate::read::Loaded;
+use crate::record::Record;
 use crate::record::cycles::span;
 use crate::record::written::quantity;
-use crate::record::{Measurement, Record};
 
 /// Factor beyond which two tests of one joint do not differ: deep slip takes a joint to a tenth or so of its
 /// stiffness, and a unit is off by a thousand, or by 25.4 or 4.45.
@@ -11,13 +11,9 @@ const MOST: f64 = 30.0;
 
 /// What is said of the softest and the stiffest record, where they are that far apart.
 pub fn notes(loaded: &[Loaded]) -> Option<String> {
-    let records = loaded
-        .iter()
-        .filter_map(|loaded| match &loaded.measurement {
-            Measurement::History(record) => Some((record.name.as_str(), secant(record)?)),
-            Measurement::Amplitudes(_) => None,
-        });
-    let by_size: Vec<(&str, f64)> = records.collect();
+    let records = loaded.iter().filter_map(|l| l.measurement.history());
+    let by_size = records.filter_map(|record| Some((record.name.as_str(), secant(record)?)));
+    let by_size: Vec<(&str, f64)> = by_size.collect();
     let softest = by_size.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let stiffest = by_size.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let factor = stiffest.1 / softest.1;
@@ -47,6 +43,7 @@ fn one_digit(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Measurement;
 
     fn record(name: &str, stiffness: f64) -> Loaded {
         let displacement: Vec<f64> = (0..50).map(|i| 1e-6 * f64::from(i).sin()).collect();

@@ -25,12 +25,7 @@ pub(super) fn however_driven(
             ..record
         })
         .collect();
-    let other = however_worn(&otherwise, timed, progress);
-    let scale = first.dispersion().min(other.dispersion());
-    match other.unlikeliness(scale) < first.unlikeliness(scale) {
-        true => other,
-        false => first,
-    }
+    first.or_likelier(however_worn(&otherwise, timed, progress))
 }
 
 impl Investigation {

@@ -43,11 +43,7 @@ pub(super) fn however_worn(
     let mut bench = anew.bench.clone();
     bench.wear_on();
     let on = searched(bench, anew.found.baseline.clone(), timed, progress).sharpened();
-    let scale = anew.dispersion().min(on.dispersion());
-    match on.unlikeliness(scale) < anew.unlikeliness(scale) {
-        true => on,
-        false => anew,
-    }
+    anew.or_likelier(on)
 }
 
 /// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
@@ -362,10 +358,19 @@ impl Investigation {
         Some(train.records.into_iter().map(|r| r.beginning).collect())
     }
 
+    /// This, or another where that is likelier.
+    pub(super) fn or_likelier(self, other: Investigation) -> Investigation {
+        let scale = self.dispersion().min(other.dispersion());
+        match other.unlikeliness(scale) < self.unlikeliness(scale) {
+            true => other,
+            false => self,
+        }
+    }
+
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
     /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
     /// whether wear goes on; every cause is as unlikely as what is against the rule.
-    pub(super) fn unlikeliness(&self, dispersion: f64) -> f64 {
+    fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let weights = train.records.iter().flat_map(|r| &r.weight);

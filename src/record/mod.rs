@@ -81,3 +81,21 @@ pub enum Measurement {
     /// An amplitude table.
     Amplitudes(AmplitudeTable),
 }
+
+impl Measurement {
+    /// The time history, where it is one.
+    pub fn history(&self) -> Option<&Record> {
+        match self {
+            Measurement::History(record) => Some(record),
+            Measurement::Amplitudes(_) => None,
+        }
+    }
+
+    /// The amplitude table, where it is one.
+    pub fn table(&self) -> Option<&AmplitudeTable> {
+        match self {
+            Measurement::Amplitudes(table) => Some(table),
+            Measurement::History(_) => None,
+        }
+    }
+}

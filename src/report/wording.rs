@@ -200,7 +200,8 @@ pub(super) fn weight_sentence(cause: &NamedCause) -> String {
 }
 
 /// Times the noise as it is told that a clean joint's baseline may leave in rms before it is said that slow noise was
-/// granted: of fifty clean records of another laboratory none left 1.4.
+/// granted: of the hundred clean records of card 20270112 none left 1.4 on unseen data (`baseline_over_noise` over
+/// `noise_stated_over_true` of its marks).
 const SLOW_NOISE: f64 = 2.0;
 
 /// The rest, as a share of what could be explained.

@@ -69,17 +69,11 @@ impl Found {
         let files = loaded.iter().map(|one| (name(one), samples(one))).collect();
         let histories: Vec<&Record> = loaded
             .iter()
-            .filter_map(|one| match &one.measurement {
-                Measurement::History(record) => Some(record),
-                Measurement::Amplitudes(_) => None,
-            })
+            .filter_map(|one| one.measurement.history())
             .collect();
         let tables: Vec<&AmplitudeTable> = loaded
             .iter()
-            .filter_map(|one| match &one.measurement {
-                Measurement::Amplitudes(table) => Some(table),
-                Measurement::History(_) => None,
-            })
+            .filter_map(|one| one.measurement.table())
             .collect();
         let mut tables: Vec<(String, Seed)> = tables
             .iter()
