@@ -40,6 +40,7 @@ step "Python lints"                   "$PYTHON" -m ruff check --quiet .
 step "Rust tests"                     cargo test --locked --quiet --release --features importer
 step "laboratory"                     "$PYTHON" -m unittest -q laboratory.self_test
 step "blind tests"                    "$PYTHON" tests/blind/run.py --iwan "$IWAN"
+step "what was once missed"           "$PYTHON" tests/blind/put_again.py --iwan "$IWAN"
 step "demo"                           scripts/demo.sh "$demo_result"
 step "what the demo leaves"           "$PYTHON" tests/demo/check.py "$demo_result"
 step "FMU in fmpy"                    "$PYTHON" tests/fmu/run_fmpy.py

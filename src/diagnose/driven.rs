@@ -1,9 +1,10 @@
 //! Whether the drive turns between its samples, asked again beside the causes that were found.
 
+use super::growing::leaves_structure;
 use super::investigation::{Investigation, however_worn};
 use super::prepare::form;
-use super::trials::ALARM;
-use crate::identify::{as_driven, refit_below};
+use super::trials::{ALARM, Effort, trials};
+use crate::identify::{as_driven, baseline, refit_below};
 use crate::record::Record;
 
 /// Searches for causes in records however they begin and wear, with the drive as it leaves less between samples.
@@ -14,7 +15,7 @@ pub(super) fn however_driven(
 ) -> Investigation {
     let driven = as_driven(form(records), records);
     let first = however_worn(&driven, timed, progress);
-    if !first.suits_another_drive() {
+    if !first.suits_another_drive(timed) {
         return first;
     }
     progress("once more: the drive may do something else between its samples");
@@ -29,20 +30,35 @@ pub(super) fn however_driven(
 }
 
 impl Investigation {
-    /// True where the causes that were found leave less beside a drive that does otherwise between its samples: what
-    /// joints without any cause leave tells little where a cause does much.
-    fn suits_another_drive(&self) -> bool {
+    /// True where the causes that were found, or another one alone, leave less beside a drive that does otherwise
+    /// between its samples: what joints without any cause leave tells little where a cause does much.
+    ///
+    /// Another cause is asked for where the drive is the rarer one, or where what was found leaves structure; without
+    /// asking, a rarer drive is compared where what it leaves was taken for noise.
+    fn suits_another_drive(&self, timed: bool) -> bool {
         let best = &self.found.best;
         if best.effects.is_empty() {
             return false;
         }
         let mut train = self.bench.train.clone();
+        let straight = train.records.iter().any(|r| r.between.straight);
+        if straight && !self.bench.noise_is_repeated() {
+            return true;
+        }
         let form = train.operators.form;
         for record in &mut train.records {
             record.between.straight = !record.between.straight;
             record.look_between(form);
         }
         let bound = best.misfit - ALARM * self.dispersion();
-        refit_below(&train, best, best.effects.clone(), bound).misfit < bound
+        if refit_below(&train, best, best.effects.clone(), bound).misfit < bound {
+            return true;
+        }
+        if !straight && !leaves_structure(&self.bench.train, best) {
+            return false;
+        }
+        let (plain, effort) = (baseline(&train), (Effort::Full, bound));
+        let alone = trials(&train, &self.bench.scale, timed, &plain, effort);
+        alone.iter().any(|t| t.plausible && t.fit.misfit < bound)
     }
 }

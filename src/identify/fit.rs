@@ -76,6 +76,10 @@ const TRIALS: usize = 7;
 /// that the dictionary explains to a part in ten thousand is still free to move.
 const LEAST_DAMPING: f64 = 1e-4;
 
+/// Share of the fall that a step foretells below which the dictionary has to follow where it led: it was linear on
+/// the way there, and is not.
+const FORETOLD: f64 = 0.1;
+
 /// Relative fall of the misfit below which a refit ends.
 const SETTLED: f64 = 1e-6;
 
@@ -271,11 +275,12 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
         let first = columns + records;
         let bounded = bounded(problem, &normal);
         let solution = normal.solve(&bounded);
-        if round > 0 && now.misfit - normal.misfit(&solution) < SETTLED * now.misfit {
+        let foretold = now.misfit - normal.misfit(&solution);
+        if round > 0 && foretold < SETTLED * now.misfit {
             break;
         }
         let mut accepted = false;
-        for _ in 0..TRIALS {
+        for tried in 0..TRIALS {
             let mut damped = normal.clone();
             (first..normal.size).for_each(|i| damped.damp(i, damping));
             if implicit && damping > 0.0 {
@@ -295,6 +300,10 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
             let values = moved(&now.effects, &slopes, &solution[first..]);
             solution.truncate(columns);
             let trial = Reached::at(problem, solution, values);
+            let trial = match implicit && trial.misfit > now.misfit - FORETOLD * foretold {
+                true => trial.suited_if_better(problem),
+                false => trial,
+            };
             let once = round == 0 && steps.most == 1;
             if trial.misfit.is_finite() && (trial.misfit < now.misfit || once) {
                 let fall = now.misfit - trial.misfit;
@@ -305,7 +314,8 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
                 };
                 accepted = fall > least * now.misfit && prospect;
                 now = trial;
-                damping *= 0.1;
+                // What has just failed is not tried again at once.
+                damping *= if tried == 0 { 0.1 } else { 1.0 };
                 break;
             }
             if slopes.is_empty() {

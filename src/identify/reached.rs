@@ -57,6 +57,16 @@ impl Reached {
         Reached::at(problem, anew, self.effects.clone())
     }
 
+    /// The same effects with the dictionary that suits them, where that leaves less.
+    pub fn suited_if_better(self, problem: &Problem) -> Reached {
+        let suited = self.suited(problem);
+        if suited.misfit < self.misfit {
+            suited
+        } else {
+            self
+        }
+    }
+
     /// The smaller start, or the better suited one, of effects that begin worse than a model without them.
     pub fn begun(mut self, problem: &Problem, before: f64) -> Reached {
         for _ in 0..SMALLER {
@@ -81,7 +91,7 @@ impl Reached {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Form, baseline, refit};
+    use crate::identify::{Fit, Form, baseline, refit};
     use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -163,6 +173,96 @@ mod tests {
             let found = fit.effects[0].values[0];
             assert!((found - 0.2).abs() < 0.005, "from {share}: {found}");
             assert!(near.misfit < 1.01 * fit.misfit);
+        }
+    }
+
+    /// Friction that falls by a share over a path of the slip.
+    struct Fading;
+
+    static FADES: [Parameter; 2] = [
+        SHARE[0],
+        Parameter {
+            name: "per_path",
+            symbol: "1/L",
+            unit: "1/m",
+            lower: 0.0,
+            upper: 1e15,
+            vanishes_at: None,
+            neutral: None,
+            meaning: "one over the path",
+        },
+    ];
+
+    impl Effect for Fading {
+        fn name(&self) -> &'static str {
+            "fading"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &FADES
+        }
+        fn memory(&self) -> usize {
+            2
+        }
+        fn remember(&self, _values: &[f64], now: &Situation, memory: &mut [f64]) {
+            memory[0] += (now.slip - memory[1]).abs();
+            memory[1] = now.slip;
+        }
+        fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
+            SlipLimit::either_way(1.0 - values[0] * (1.0 - (-values[1] * memory[0]).exp()))
+        }
+    }
+
+    /// Near full slip a loss and the joint beside which it is sought change each other's answer by far more than first order
+    /// tells: the dictionary follows every step, and different starts come to one end.
+    #[test]
+    fn a_joint_near_full_slip_follows_friction_that_falls() {
+        let force: Vec<f64> = (0..2400)
+            .map(|i| (0.0065 * f64::from(i), (f64::from(i) / 1200.0).ceil() / 2.0))
+            .map(|(t, level)| level * (0.33 * (20.0 * t).sin() + 0.37 * (13.0 * t).sin() - 0.28))
+            .collect();
+        let mut record = Record {
+            name: "fading".to_string(),
+            time: Some((0..2400).map(|i| 0.0065 * f64::from(i)).collect()),
+            displacement: vec![0.0; force.len()],
+            force,
+            ..Record::default()
+        };
+        let fading = |share: f64, per_path: f64| {
+            vec![Acting {
+                effect: &Fading,
+                values: vec![share, per_path],
+            }]
+        };
+        let mut problem = Problem::new(Form::Play, &[record.clone()]);
+        let edges: Vec<f64> = (1..=300).map(|j| 0.0034 * f64::from(j)).collect();
+        // Compliance grows without end as the last contacts let go.
+        let coefficients: Vec<f64> = std::iter::once(1.0)
+            .chain(edges.iter().map(|r| 0.01 / (1.05 - r).powi(2)))
+            .chain([0.0; crate::identify::operators::BEYOND])
+            .collect();
+        problem.operators = crate::identify::Operators::with_edges(Form::Play, edges);
+        let exact = problem.predict(&coefficients, &fading(0.06, 0.01))[0]
+            .judged
+            .clone();
+        let size = exact.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+        let rough = |(i, u): (usize, &f64)| u + 4e-3 * size * (1e3 * (i * i) as f64).sin();
+        record.displacement = exact.iter().enumerate().map(rough).collect();
+        let mut problem = Problem::new(Form::Play, &[record]);
+        problem.records[0].weight.fill(1.0 / (4e-3 * size));
+        let start = baseline(&problem);
+        let ends: Vec<Fit> = [(0.02, 0.1), (0.06, 0.1), (0.02, 0.01), (0.06, 1e-3)]
+            .map(|(share, per_path)| refit(&problem, &start, fading(share, per_path)))
+            .to_vec();
+        let least = ends
+            .iter()
+            .fold(f64::INFINITY, |least, fit| least.min(fit.misfit));
+        assert!(least < 0.01 * start.misfit);
+        // Along the valley, a larger loss over a longer path, steps end where each takes a hundredth.
+        for fit in ends {
+            assert!(fit.misfit < 1.05 * least, "{:?}", fit.effects[0].values);
         }
     }
 }
