@@ -27,6 +27,9 @@ const STRUCTURE: f64 = 0.05;
 /// factor of 1.4 at most.
 const OVERRATED: f64 = 0.5;
 
+/// Share of the evidence wanted that fitted samples have to give; held-out ones may give the rest.
+const UNDECIDED: f64 = 0.5;
+
 /// Causes, best first, whose prediction of held-out cycles is looked at in one round.
 const PREDICTORS: usize = 4;
 
@@ -82,23 +85,24 @@ struct Grow<'a> {
 
 impl Grow<'_> {
     /// The set with the trial that lowers the squared error most, held-out samples included, of those with
-    /// enough evidence that [`Prospect::holds`] lets pass.
+    /// enough evidence, theirs included, that [`Prospect::holds`] lets pass.
     fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
         let least = alarm(&self.bench.train);
-        let mut promising = trials
-            .iter()
-            .filter(|t| t.evidence >= least && t.fit.misfit < enough);
+        let reaches = |t: &&Trial| t.fit.misfit < enough;
         let next = match self.effort {
-            Effort::Quick => promising.next(),
-            Effort::Full => promising
+            Effort::Quick => trials.iter().find(|t| t.evidence >= least && reaches(t)),
+            Effort::Full => trials
+                .iter()
+                .filter(|t| t.evidence >= UNDECIDED * least && reaches(t))
                 .take(PREDICTORS)
                 .map(|t| (t, Prospect::of(self.bench, current, &t.fit)))
-                .filter(|(_, prospect)| prospect.holds())
-                .filter(|(t, _)| {
-                    stays_on_a_finer_grid(&self.bench.train, current, (t.evidence, &t.fit))
+                .map(|(t, prospect)| (t, t.evidence + prospect.held_out_evidence(), prospect))
+                .filter(|(_, evidence, prospect)| *evidence >= least && prospect.holds())
+                .filter(|(t, evidence, _)| {
+                    stays_on_a_finer_grid(&self.bench.train, current, (*evidence, &t.fit))
                 })
-                .max_by(|(_, a), (_, b)| a.total().total_cmp(&b.total()))
-                .map(|(t, _)| t),
+                .max_by(|(.., a), (.., b)| a.total().total_cmp(&b.total()))
+                .map(|(t, ..)| t),
         };
         next.map(|t| t.fit.clone())
     }

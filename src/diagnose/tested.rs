@@ -4,16 +4,17 @@
 use super::gain::ratio;
 use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
-use super::trials::{ALARM, all_plausible, dispersion};
+use super::trials::{ALARM, all_plausible, dispersion, penalty};
 use crate::identify::{Fit, refit};
+use crate::joint::effect::Acting;
 use crate::record::noise::independence;
 
 /// The set without the causes that gain nothing on held-out data.
 ///
-/// A single cause has to lower the held-out error or most of the misfit, and where it is not evident, the error beyond its
-/// scatter (95 % interval of the bootstrap). Every one of several has to
-/// lower it beyond the scatter of the held-out cycles (95 % interval of the bootstrap): the more
-/// causes, the more ways to mend by one what another's law is wrong about. One that takes most of
+/// A single cause has to lower the held-out error or most of the misfit, and where all samples together do not make it
+/// evident, the held-out error beyond its scatter (95 % interval of the bootstrap) or so far that chance would once in
+/// forty. Every one of several has to lower it beyond the scatter of the held-out cycles (95 % interval of the
+/// bootstrap): the more causes, the more ways to mend by one what another's law is wrong about. One that takes most of
 /// the misfit away, and a substantial part of the baseline's, stays: what happens once, or at one rate,
 /// few held-out cycles show. So does one of a set that leaves noise alone, whose gain is beyond that noise: of a
 /// few cycles a bootstrap tells little.
@@ -46,13 +47,19 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    let evidence = (baseline.misfit - fit.misfit) / dispersion(&bench.train, &fit);
+    let free: usize = fit.effects.iter().map(Acting::free).sum();
+    let evidence = (baseline.misfit - fit.misfit) / dispersion(&bench.train, &fit)
+        - penalty(&bench.train, free);
     let proven = || {
         let both = [baseline, &fit].map(|f| f.predict(&bench.train));
         let (_, interval) = ratio(bench, &both[0], &both[1]);
         interval.is_none_or(|(_, upper)| upper < 1.0)
     };
-    let holds = || Prospect::of(bench, baseline, &fit).holds() && (evidence > EVIDENT || proven());
+    let holds = || {
+        let prospect = Prospect::of(bench, baseline, &fit);
+        let evident = evidence + prospect.held_out > ALARM;
+        prospect.holds() && (evident || prospect.is_likelier() || proven())
+    };
     if fit.effects.is_empty() || holds() {
         fit
     } else {
@@ -60,9 +67,8 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     }
 }
 
-/// Fall of the misfit from which a cause needs no gain on held-out samples that is beyond their scatter: what is that
-/// evident and not seen there happens elsewhere.
-const EVIDENT: f64 = 3.0 * ALARM;
+/// Likelihood ratio of held-out samples that chance reaches as rarely as a bootstrap's interval of 95 % misses at one end.
+const LIKELIER: f64 = 40.0;
 
 /// Standard deviations that count as certain.
 const CERTAIN: f64 = 3.0;
@@ -177,6 +183,18 @@ impl Prospect {
     pub fn holds(&self) -> bool {
         let unseen = self.difference < TELLING || self.dominates();
         self.slow > SLOW * self.fitted && unseen || self.slow > 0.0 && self.held_out > 0.0
+    }
+
+    /// Twice the logarithm of how much likelier held-out samples are by the larger set; none where they are not.
+    ///
+    /// What was fitted without them owes them nothing: they are x times as likely by chance once in x records at most.
+    pub fn held_out_evidence(&self) -> f64 {
+        self.held_out.max(0.0)
+    }
+
+    /// True where held-out samples are that much likelier by the larger set that one in forty would be by chance.
+    pub fn is_likelier(&self) -> bool {
+        self.held_out_evidence() > 2.0 * LIKELIER.ln()
     }
 
     /// True where held-out samples show the set to be better, beyond what their noise may do: the squared errors of

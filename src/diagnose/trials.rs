@@ -9,19 +9,25 @@ use crate::causes::{CATALOGUE, Cause, Scale, find};
 use crate::identify::{Fit, Problem, Score, refit, refit_below, scores};
 use crate::joint::effect::Acting;
 
-/// Fall of the whitened misfit, per excess dispersion, that a first cause must bring.
-///
-/// Judged, not simulated for the record at hand: the largest of many correlated χ²₁ and χ²₂ falls
-/// over the catalogue's shapes, and the penalty of two values (ln n each) on top.
+/// Fall of the whitened misfit, per excess dispersion, that makes one model likelier than another one, where each has
+/// its own beginnings, drives or sets of causes: the largest of many correlated χ²₁ and χ²₂ falls over the catalogue's
+/// shapes, and the penalty of two values (ln n each) on top.
 pub const ALARM: f64 = 30.0;
+
+/// Evidence, its penalty taken off, that a cause must have beside noise.
+///
+/// Of 88 clean records of the laboratory, under each kind of noise in turn, the largest evidence of a cause that lowers
+/// the errors themselves was −7 in the median, 2 in one of ten, and 19, 8.5 and 8.1 in the largest; where it was 19
+/// held-out samples spoke against it.
+const CHANCE: f64 = 20.0;
 
 /// Part of the noise's variance that a cause must bring all along the record: less than a tenth of the noise in
 /// rms may as well be what grids and steps of a model are wrong by.
 const TENTH: f64 = 0.01;
 
-/// Evidence that a cause must have: [`ALARM`], and in long records a tenth of the noise.
+/// Evidence that a cause must have: [`CHANCE`], and in long records a tenth of the noise.
 pub fn alarm(problem: &Problem) -> f64 {
-    ALARM.max(TENTH * problem.independent_rows())
+    CHANCE.max(TENTH * problem.independent_rows())
 }
 
 /// One cause fitted jointly with everything else in the set.
