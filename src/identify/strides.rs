@@ -15,16 +15,21 @@ const STRIDE: f64 = 0.2;
 /// Most strides one way.
 const MOST: usize = 8;
 
+/// Standard deviations of noise within which a misfit tells nothing of how much an effect has to take.
+const SCATTER: f64 = 3.0;
+
 /// The fit with such values a few strides on, the newest effect's first a leap where it takes less than
-/// half of what noise does not explain of the misfit `before` it; the dictionary's coefficients suited
+/// half of what noise does not explain of the misfit `before` it, or noise may explain all of that; the dictionary's coefficients suited
 /// to each. The same fit where none lowers the misfit.
 pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
-    let half = 0.5 * (before + problem.rows() as f64);
+    let rows = problem.rows() as f64;
+    let half = 0.5 * (before + rows);
+    let hidden = before < rows + SCATTER * (2.0 * rows).sqrt();
     let newest = fit.effects.iter().rposition(|acting| !series::is(acting));
     for e in 0..fit.effects.len() {
         let law = fit.effects[e].effect;
         for p in (0..law.parameters().len()).filter(|&p| law.jumps_with(p)) {
-            if Some(e) == newest && fit.misfit > half {
+            if Some(e) == newest && (hidden || fit.misfit > half) {
                 let leaps = LEAPS.map(|factor| moved(problem, &fit, (e, p), factor));
                 let lower = |least: Fit, next: Fit| match next.misfit < least.misfit {
                     true => next,
