@@ -74,6 +74,16 @@ pub(super) fn grown(
     (best, trials)
 }
 
+/// Evidence that a cause must have; where a channel shows less noise than it resolves, what models are wrong by shows,
+/// and a cause has to bring what makes any model likelier than another.
+fn wanted(bench: &Bench) -> f64 {
+    let records = 0..bench.train.records.len();
+    match records.into_iter().any(|k| bench.is_finer_than_read(k)) {
+        true => alarm(&bench.train).max(ALARM),
+        false => alarm(&bench.train),
+    }
+}
+
 /// How sets grow.
 struct Grow<'a> {
     bench: &'a Bench,
@@ -87,7 +97,7 @@ impl Grow<'_> {
     /// The set with the trial that lowers the squared error most, held-out samples included, of those with
     /// enough evidence, theirs included, that [`Prospect::holds`] lets pass.
     fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
-        let least = alarm(&self.bench.train);
+        let least = wanted(self.bench);
         let reaches = |t: &&Trial| t.fit.misfit < enough;
         let next = match self.effort {
             Effort::Quick => trials.iter().find(|t| t.evidence >= least && reaches(t)),
@@ -159,7 +169,7 @@ impl Grow<'_> {
     /// of both gives back.
     fn elsewhere(&self, (baseline, best): (&Fit, &Fit), first: &[Trial]) -> Option<Fit> {
         let Grow { bench, .. } = *self;
-        let evident = alarm(&bench.train);
+        let evident = wanted(bench);
         let began = best.effects.first();
         let others = at_other_places(&bench.train, &bench.scale, baseline, first);
         let mut beginnings: Vec<&Trial> = first
