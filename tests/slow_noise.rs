@@ -79,7 +79,8 @@ fn worn(seed: u64, falls: f64) -> Record {
     plays::record("worn", force, displacement)
 }
 
-/// Seeds whose held-out cycles alone, or fitted ones alone, prove nothing.
+/// Of seeds 1 to 8 those whose fall of the misfit stays below 90 and whose held-out cycles alone, by their bootstrap, do not
+/// prove the cause.
 const TOGETHER: [u64; 4] = [2, 4, 5, 8];
 
 #[test]

@@ -19,8 +19,8 @@ const MOST: usize = 8;
 const SCATTER: f64 = 3.0;
 
 /// The fit with such values a few strides on, the newest effect's first a leap where it takes less than
-/// half of what noise does not explain of the misfit `before` it, or noise may explain all of that; the dictionary's coefficients suited
-/// to each. The same fit where none lowers the misfit.
+/// half of what noise does not explain of the misfit `before` it, or noise may explain all of that; the dictionary's
+/// coefficients suited to each. The same fit where none lowers the misfit.
 pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
     let rows = problem.rows() as f64;
     let half = 0.5 * (before + rows);
