@@ -5,6 +5,7 @@ use super::tested::{Prospect, beyond_unseen};
 use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
+use crate::identify::weighing::deviation;
 use crate::identify::{Fit, Problem, refit, without};
 use crate::joint::effect::Acting;
 
@@ -154,7 +155,7 @@ pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
 
 /// What a sum of squares of noise alone may exceed its mean by, in noise variances.
 pub fn scatter(rows: f64) -> f64 {
-    SCATTER * (2.0 * rows).sqrt()
+    SCATTER * deviation(rows)
 }
 
 /// Times what a cause brought that the others may leave without it as they were beside it: beyond, a dictionary that

@@ -14,13 +14,21 @@ pub(super) struct Remembered {
     /// Positions after the last step, and the slip they belong to.
     positions: Vec<f64>,
     slip: f64,
-    /// Of each operator: what it remembers.
-    states: Vec<State>,
+    /// The operators that have a weight.
+    held: Vec<Held>,
     groups: Vec<Group>,
     /// Σ c_i dx_i over those at rest, by coefficient.
     sum: Vec<f64>,
     /// dx after the last step, by coefficient.
     input: Vec<f64>,
+}
+
+/// An operator that has a weight.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    place: usize,
+    weight: f64,
+    state: State,
 }
 
 /// State of an operator.
@@ -43,12 +51,23 @@ struct Group {
     change: f64,
 }
 
+/// The operators with a weight, of so many that share the coefficients of the cells.
+fn held(cells: &[f64], operators: usize) -> Vec<Held> {
+    let weight = |place: usize| cells.get(place / SHARED).map_or(0.0, |c| c / SHARED as f64);
+    let all = (0..operators).map(|place| Held {
+        place,
+        weight: weight(place),
+        state: State::Virgin,
+    });
+    all.filter(|one| one.weight != 0.0).collect()
+}
+
 impl Remembered {
     /// Takes the operators to the end of a step: adds to their outputs per coefficient what those at rest remember.
     pub fn add(&mut self, march: &March, outputs: &mut [f64]) {
         let positions = march.positions();
-        if self.states.is_empty() {
-            self.states = vec![State::Virgin; positions.len()];
+        if self.positions.is_empty() {
+            self.held = held(march.cells(), positions.len());
             self.sum = vec![0.0; outputs.len()];
             self.input = vec![0.0; outputs.len()];
         } else {
@@ -79,34 +98,34 @@ impl Remembered {
         let moved = march.slip() - self.slip;
         let form = march.form();
         let mut rested = None;
-        let cells = march.cells();
-        let before = std::mem::take(&mut self.positions);
-        for (own, (&now, &before)) in positions.iter().zip(&before).enumerate() {
-            let weight = cells.get(own / SHARED).map_or(0.0, |c| c / SHARED as f64);
-            if weight == 0.0 {
-                continue;
-            }
+        for k in 0..self.held.len() {
+            let Held {
+                place,
+                weight,
+                state,
+            } = self.held[k];
+            let (now, before) = (positions[place], self.positions[place]);
             let slips = match form {
                 Form::Play => now != before,
                 Form::Stop => now != before + moved,
             };
-            match (slips, self.states[own]) {
+            let next = match (slips, state) {
                 (true, State::Rests(group)) => {
                     self.groups[group].members -= 1;
                     self.groups[group].change -= weight;
-                    self.states[own] = State::Slips;
+                    State::Slips
                 }
-                (true, State::Virgin) => self.states[own] = State::Slips,
+                (true, State::Virgin) => State::Slips,
                 (false, State::Slips) => {
                     let group = *rested.get_or_insert_with(|| self.begin());
                     self.groups[group].members += 1;
                     self.groups[group].change += weight;
-                    self.states[own] = State::Rests(group);
+                    State::Rests(group)
                 }
-                (true, State::Slips) | (false, _) => {}
-            }
+                (true, State::Slips) | (false, _) => continue,
+            };
+            self.held[k].state = next;
         }
-        self.positions = before;
         for group in self.groups.iter_mut().filter(|g| g.change != 0.0) {
             let both = self.sum.iter_mut().zip(&group.input);
             both.for_each(|(sum, input)| *sum += group.change * input);

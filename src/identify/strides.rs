@@ -5,6 +5,7 @@ use super::fit::Fit;
 use super::problem::Problem;
 use super::reached::Reached;
 use super::series;
+use super::weighing::deviation;
 
 /// Factors tried at once: a first size comes from a slope, and slopes between jumps tell little.
 const LEAPS: [f64; 3] = [3.0, 9.0, 27.0];
@@ -24,7 +25,7 @@ const SCATTER: f64 = 3.0;
 pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
     let rows = problem.rows() as f64;
     let half = 0.5 * (before + rows);
-    let hidden = before < rows + SCATTER * (2.0 * rows).sqrt();
+    let hidden = before < rows + SCATTER * deviation(rows);
     let newest = fit.effects.iter().rposition(|acting| !series::is(acting));
     for e in 0..fit.effects.len() {
         let law = fit.effects[e].effect;

@@ -51,3 +51,8 @@ pub fn whiten(autoregression: f64, value: f64, before: Option<f64>) -> (f64, f64
         }
     }
 }
+
+/// Standard deviation of the sum of squares of so many weighed rows of noise alone, `√(2 rows)`, in noise variances.
+pub fn deviation(rows: f64) -> f64 {
+    (2.0 * rows).sqrt()
+}
