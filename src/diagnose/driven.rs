@@ -1,7 +1,8 @@
 //! Whether the drive turns between its samples, asked again beside the causes that were found.
 
 use super::growing::leaves_structure;
-use super::investigation::{Investigation, however_worn};
+use super::however_begun::however_worn;
+use super::investigation::Investigation;
 use super::prepare::form;
 use super::trials::{ALARM, Effort, trials};
 use crate::identify::{as_driven, baseline, refit_below};
@@ -14,7 +15,7 @@ pub(super) fn however_driven(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let driven = as_driven(form(records), records);
-    let first = however_worn(&driven, timed, progress);
+    let first = however_worn(&driven, (timed, f64::INFINITY), progress);
     if !first.suits_another_drive(timed) {
         return first;
     }
@@ -26,7 +27,8 @@ pub(super) fn however_driven(
             ..record
         })
         .collect();
-    first.or_likelier(however_worn(&otherwise, timed, progress))
+    let asked = (timed, first.enough());
+    first.or_likelier(however_worn(&otherwise, asked, progress))
 }
 
 impl Investigation {

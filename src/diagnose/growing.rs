@@ -39,12 +39,13 @@ const BEGINNINGS: usize = 6;
 /// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
 ///
 /// The first cause that is taken need not be of the true set: one that is neither of two may take more than
-/// each of them. Where the set leaves structure, it is grown from other first causes as well.
+/// each of them. Where the set leaves structure, it is grown from other first causes as well. Sets without prospect of a
+/// misfit below `wanted` are given up.
 pub(super) fn grown(
     bench: &Bench,
     timed: bool,
     baseline: &Fit,
-    effort: Effort,
+    (effort, wanted): (Effort, f64),
 ) -> (Fit, Vec<Trial>) {
     let least = least(&bench.train, baseline);
     let grow = Grow {
@@ -52,6 +53,7 @@ pub(super) fn grown(
         timed,
         effort,
         least,
+        wanted,
     };
     let trials = trials(
         &bench.train,
@@ -91,6 +93,8 @@ struct Grow<'a> {
     effort: Effort,
     /// Misfit that one cause of several has to take away.
     least: f64,
+    /// Misfit that sets of several have to reach.
+    wanted: f64,
 }
 
 impl Grow<'_> {
@@ -182,9 +186,9 @@ impl Grow<'_> {
         let least = ALARM * dispersion(&self.bench.train, best);
         let beyond = best.misfit - self.bench.train.rows() as f64;
         // A set that takes no more is not worth the settling.
-        let enough = best.misfit - FURTHER_SHARE * beyond;
+        let enough = (best.misfit - FURTHER_SHARE * beyond).min(self.wanted);
         let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
-            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit));
+            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit.min(self.wanted)));
             self.next(&one.fit, &trials, enough)
         });
         pairs

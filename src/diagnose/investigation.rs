@@ -1,15 +1,13 @@
-//! Noise, baseline and the search for causes; once more where records may not begin with a virgin joint, or with a
-//! worn one.
+//! Records of one beginning with what was found in them, and how likely that is beside other beginnings.
 
 use super::growing::{FURTHER_SHARE, leaves_structure};
-use super::prepare::{Bench, form, prepare};
+use super::prepare::Bench;
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, dispersion, implausible, trials_of};
 use crate::causes::Cause;
-use crate::identify::beginning::{Beginning, at_zero, beginnings, past, sharpened};
+use crate::identify::beginning::{Beginning, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
-use crate::record::Record;
 
 /// Share of what a cause brought that other turns before the records may leave.
 const HALF: f64 = 0.5;
@@ -17,127 +15,19 @@ const HALF: f64 = 0.5;
 /// Times that turns and joint are fitted to each other in turn.
 const ROUNDS: usize = 3;
 
+/// Multiple of what a search leaves beyond noise that the same records may leave when they begin otherwise, before
+/// they are given up. Judged: exchanging causes, which comes later, takes a part of that.
+const FAR: f64 = 4.0;
+
+/// Part of the noise's variance that counts as left at least.
+const SLIGHT: f64 = 0.1;
+
 /// Records, and what was found in them.
 pub struct Investigation {
     /// The records, with how each of them begins.
     pub bench: Bench,
     /// What the search found.
     pub found: Found,
-}
-
-/// Said where the records are searched with another beginning.
-const ONCE_MORE: &str =
-    "once more: a record may begin in the middle of a test, or its zero may be off";
-
-/// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
-pub(super) fn however_worn(
-    records: &[Record],
-    timed: bool,
-    progress: &mut impl FnMut(&str),
-) -> Investigation {
-    let anew = made_anew(records, timed, progress);
-    if !anew.may_wear_on() {
-        return anew;
-    }
-    progress("once more: wear may go on from record to record");
-    let mut bench = anew.bench.clone();
-    bench.wear_on();
-    let on = searched(bench, anew.found.baseline.clone(), timed, progress).sharpened();
-    anew.or_likelier(on)
-}
-
-/// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
-/// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
-fn made_anew(records: &[Record], timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
-    progress("noise and baseline");
-    let virgin = vec![Beginning::default(); records.len()];
-    let form = form(records);
-    let bench = prepare(form, records, &virgin);
-    let first = baseline(&bench.train);
-    let mut others = beginnings(&bench.train, &first);
-    // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
-    let train = &bench.train;
-    let at_zero: Vec<bool> = (0..records.len())
-        .map(|k| at_zero(train.channels(k).0))
-        .collect();
-    let against_rule = |i: &Investigation| {
-        let mut both = i.beginnings().zip(&at_zero);
-        match i.is_virgin() {
-            true => at_zero.contains(&false),
-            false if i.goes_on() => false,
-            false if i.beginnings().all(|b| b.turned.is_empty()) => false,
-            false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
-        }
-    };
-    // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
-    let misled = |i: &Investigation| against_rule(i) && !i.is_plain();
-    let leading = |all: &[Investigation]| {
-        let scale = all
-            .iter()
-            .map(Investigation::dispersion)
-            .fold(f64::INFINITY, f64::min);
-        let unlikely = |i: &Investigation| {
-            // Where a past is the rule, a virgin joint and a cause that does its work are two oddities; so is a past
-            // where none is the rule, which may do the work of a cause.
-            let plainly_virgin = i.is_virgin() && i.found.best.effects.is_empty();
-            let oddities = match (against_rule(i), plainly_virgin) {
-                (false, _) => 0.0,
-                (true, true) => 1.0,
-                (true, false) => 2.0,
-            };
-            i.unlikeliness(scale) + oddities * ALARM
-        };
-        let order = all.iter().map(unlikely).enumerate();
-        let least = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
-        least.map_or(0, |(i, _)| i)
-    };
-    // Where a past is the rule and leaves noise alone, nobody asks what a virgin joint would need.
-    let past_is_rule = others.first().is_some_and(|o| {
-        o.iter().any(|b| b.goes_on) || at_zero.contains(&false) && has_past(o, &at_zero)
-    });
-    let mut all = Vec::new();
-    if past_is_rule {
-        let begun = prepare(form, records, &others.remove(0));
-        let one = begun_and_searched(begun, timed, progress);
-        if one.is_plain() && !one.bench.noise_may_be_structure() {
-            return one;
-        }
-        progress(ONCE_MORE);
-        let other = one.other_past();
-        all.push(one);
-        if let Some(other) = other {
-            let bench = prepare(form, records, &other);
-            all.push(begun_and_searched(bench, timed, progress));
-        }
-    }
-    let gone_on = all.first().is_some_and(Investigation::goes_on);
-    if !gone_on || all[0].may_be_beaten_by(&bench) {
-        all.push(searched(bench, first, timed, progress));
-    }
-    for other in others {
-        let bench = prepare(form, records, &other);
-        let so_far = &all[leading(&all)];
-        // A past of some records against the rule may do the work of a cause in all of them.
-        let by_rule = || bench.train.wears_on && against_rule(so_far);
-        if misled(so_far) || by_rule() || so_far.may_be_beaten_by(&bench) {
-            progress(ONCE_MORE);
-            all.push(begun_and_searched(bench, timed, progress));
-        }
-    }
-    let likeliest = leading(&all);
-    all.swap_remove(likeliest)
-}
-
-/// True where every record whose first reading is not zero has turns before it.
-fn has_past(beginnings: &[Beginning], at_zero: &[bool]) -> bool {
-    let mut both = beginnings.iter().zip(at_zero);
-    both.all(|(begins, at_zero)| *at_zero || !begins.turned.is_empty())
-}
-
-/// What is found in records that do not begin with a virgin joint.
-fn begun_and_searched(bench: Bench, timed: bool, progress: &mut impl FnMut(&str)) -> Investigation {
-    let first = baseline(&bench.train);
-    searched(bench, first, timed, progress).sharpened()
 }
 
 /// What a model leaves of record `k` with a beginning.
@@ -153,11 +43,12 @@ fn left(train: &Problem, fit: &Fit, (k, beginning): (usize, &Beginning)) -> f64 
     one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
 }
 
-/// What is found from the baseline of the records as they are weighed.
+/// What is found from the baseline of the records as they are weighed; what leaves more than `enough` of every row, in
+/// noise variances, is not asked further.
 pub(super) fn searched(
     mut bench: Bench,
     mut first: Fit,
-    timed: bool,
+    (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     if !bench.noise_is_repeated() {
@@ -167,19 +58,24 @@ pub(super) fn searched(
             first = baseline(&bench.train);
         }
     }
+    // Noise that is what models leave says nothing of how much another model leaves.
+    let enough = match bench.noise_is_repeated() {
+        true => enough,
+        false => f64::INFINITY,
+    };
     progress("searching the catalogue for causes");
-    let found = search(&mut bench, timed, first);
+    let found = search(&mut bench, timed, first, enough);
     bench.weigh_what_is_left(&found.best);
     Investigation { bench, found }
 }
 
 impl Investigation {
-    fn beginnings(&self) -> impl Iterator<Item = &Beginning> {
+    pub(super) fn beginnings(&self) -> impl Iterator<Item = &Beginning> {
         self.bench.train.records.iter().map(|r| &r.beginning)
     }
 
     /// True where the baseline leaves noise alone.
-    fn is_plain(&self) -> bool {
+    pub(super) fn is_plain(&self) -> bool {
         let Found { best, .. } = &self.found;
         best.effects.is_empty() && !leaves_structure(&self.bench.train, best)
     }
@@ -189,18 +85,29 @@ impl Investigation {
         dispersion(&self.bench.train, &self.found.best)
     }
 
+    /// What other beginnings, drives or wear may leave of every row, in noise variances, and still be asked further
+    /// beside what was found here.
+    pub(super) fn enough(&self) -> f64 {
+        let rows = self.bench.train.rows().max(1) as f64;
+        let beyond = (self.dispersion() - 1.0).max(SLIGHT + ALARM / rows);
+        match self.bench.noise_is_repeated() && !self.found.beaten {
+            true => 1.0 + FAR * beyond,
+            false => f64::INFINITY,
+        }
+    }
+
     /// True where the joint goes on from record to record.
-    fn goes_on(&self) -> bool {
+    pub(super) fn goes_on(&self) -> bool {
         self.beginnings().any(|b| b.goes_on)
     }
 
-    fn is_virgin(&self) -> bool {
+    pub(super) fn is_virgin(&self) -> bool {
         self.beginnings().all(Beginning::is_virgin)
     }
 
     /// True where other beginnings leave less beside the causes that were found, or no more beside fewer, until
     /// the first turns are known better on samples that do not hang on them.
-    fn may_be_beaten_by(&self, other: &Bench) -> bool {
+    pub(super) fn may_be_beaten_by(&self, other: &Bench) -> bool {
         let sought = |train: &Problem| -> usize {
             let records = train.records.iter();
             records.map(|r| r.beginning.values()).sum()
@@ -255,7 +162,7 @@ impl Investigation {
 
     /// True where wear that goes on from record to record explains what wear of joints made new between them does
     /// not, beside the causes that were found or alone.
-    fn may_wear_on(&self) -> bool {
+    pub(super) fn may_wear_on(&self) -> bool {
         let train = &self.bench.train;
         let best = &self.found.best;
         let lasts = |a: &Acting| a.effect.lasting() > 0;
@@ -331,7 +238,7 @@ impl Investigation {
 
     /// Beginnings that suit a set with one cause less, where they do most of what it brought: turns before the
     /// records were found before any cause was, and one cause of several may do what they are wrong by.
-    fn other_past(&self) -> Option<Vec<Beginning>> {
+    pub(super) fn other_past(&self) -> Option<Vec<Beginning>> {
         let best = &self.found.best;
         if best.effects.len() < 2 || !self.beginnings().any(Beginning::is_sought) {
             return None;
@@ -370,7 +277,7 @@ impl Investigation {
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
     /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
     /// whether wear goes on; every cause is as unlikely as what is against the rule.
-    fn unlikeliness(&self, dispersion: f64) -> f64 {
+    pub(super) fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let weights = train.records.iter().flat_map(|r| &r.weight);

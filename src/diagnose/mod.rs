@@ -14,6 +14,7 @@ mod full_slip;
 pub mod gain;
 mod gridded;
 mod growing;
+mod however_begun;
 pub mod intervals;
 mod investigation;
 pub mod joint_parameters;

@@ -67,7 +67,8 @@ pub fn investigated(
     let mut bench = first.bench.clone();
     bench.fit_also(news);
     let plain = baseline(&bench.train);
-    let again = searched(bench, plain, timed, progress).sharpened();
+    let asked = (timed, f64::INFINITY);
+    let again = searched(bench, plain, asked, progress).sharpened();
     let after = again.left_of_all(&first.bench);
     // Every cause counts for what one must bring.
     let counted = |i: &Investigation, left: f64| left + i.found.best.effects.len() as f64 * ALARM;

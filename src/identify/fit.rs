@@ -237,10 +237,11 @@ impl Steps {
 const WORTH_STRIDES: f64 = 1e-3;
 
 /// Steps from the given start; where the answer follows a value in small jumps, strides over them and
-/// steps again.
+/// steps again, if that may lead below the bound.
 fn refine(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, steps: Steps) -> Fit {
     let fit = descend(problem, coefficients, effects, steps);
-    if !steps.strides || fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
+    let prospect = fit.misfit - PROSPECT * (steps.before - fit.misfit) < steps.bound;
+    if !steps.strides || !prospect || fit.misfit > (1.0 - WORTH_STRIDES) * steps.before {
         return fit;
     }
     let reached = fit.misfit;

@@ -1,0 +1,154 @@
+//! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint; and
+//! however its joint wears.
+
+use super::investigation::{Investigation, searched};
+use super::prepare::{Bench, form, prepare};
+use super::trials::ALARM;
+use crate::identify::baseline;
+use crate::identify::beginning::{Beginning, at_zero, beginnings};
+use crate::record::Record;
+
+/// Said where the records are searched with another beginning.
+const ONCE_MORE: &str =
+    "once more: a record may begin in the middle of a test, or its zero may be off";
+
+/// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
+///
+/// What leaves more than `enough` of every row, in noise variances, is not asked further.
+pub(super) fn however_worn(
+    records: &[Record],
+    (timed, enough): (bool, f64),
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
+    let anew = made_anew(records, (timed, enough), progress);
+    if !anew.may_wear_on() {
+        return anew;
+    }
+    progress("once more: wear may go on from record to record");
+    let mut bench = anew.bench.clone();
+    bench.wear_on();
+    let first = anew.found.baseline.clone();
+    let enough = enough.min(anew.enough());
+    let on = searched(bench, first, (timed, enough), progress).sharpened();
+    anew.or_likelier(on)
+}
+
+/// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
+/// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
+fn made_anew(
+    records: &[Record],
+    (timed, enough): (bool, f64),
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
+    progress("noise and baseline");
+    let virgin = vec![Beginning::default(); records.len()];
+    let form = form(records);
+    let bench = prepare(form, records, &virgin);
+    let first = baseline(&bench.train);
+    let mut others = beginnings(&bench.train, &first);
+    // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
+    let train = &bench.train;
+    let at_zero: Vec<bool> = (0..records.len())
+        .map(|k| at_zero(train.channels(k).0))
+        .collect();
+    let against_rule = |i: &Investigation| {
+        let mut both = i.beginnings().zip(&at_zero);
+        match i.is_virgin() {
+            true => at_zero.contains(&false),
+            false if i.goes_on() => false,
+            false if i.beginnings().all(|b| b.turned.is_empty()) => false,
+            false => both.all(|(b, &at_zero)| b.is_virgin() || at_zero),
+        }
+    };
+    // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
+    let misled = |i: &Investigation| against_rule(i) && !i.is_plain();
+    let leading = |all: &[Investigation]| {
+        let scale = all
+            .iter()
+            .map(Investigation::dispersion)
+            .fold(f64::INFINITY, f64::min);
+        let unlikely = |i: &Investigation| {
+            // Where a past is the rule, a virgin joint and a cause that does its work are two oddities; so is a past
+            // where none is the rule, which may do the work of a cause.
+            let plainly_virgin = i.is_virgin() && i.found.best.effects.is_empty();
+            let oddities = match (against_rule(i), plainly_virgin) {
+                (false, _) => 0.0,
+                (true, true) => 1.0,
+                (true, false) => 2.0,
+            };
+            i.unlikeliness(scale) + oddities * ALARM
+        };
+        let order = all.iter().map(unlikely).enumerate();
+        let least = order.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        least.map_or(0, |(i, _)| i)
+    };
+    // Where a past is the rule and leaves noise alone, nobody asks what a virgin joint would need.
+    let past_is_rule = others.first().is_some_and(|o| {
+        o.iter().any(|b| b.goes_on) || at_zero.contains(&false) && has_past(o, &at_zero)
+    });
+    let mut all = Vec::new();
+    if past_is_rule {
+        let begun = prepare(form, records, &others.remove(0));
+        let one = begun_and_searched(begun, (timed, enough), progress);
+        if one.is_plain() && !one.bench.noise_may_be_structure() {
+            return one;
+        }
+        progress(ONCE_MORE);
+        let other = one.other_past();
+        let asked = (timed, enough.min(one.enough()));
+        all.push(one);
+        if let Some(other) = other {
+            let bench = prepare(form, records, &other);
+            all.push(begun_and_searched(bench, asked, progress));
+        }
+    }
+    let gone_on = all.first().is_some_and(Investigation::goes_on);
+    if !gone_on || all[0].may_be_beaten_by(&bench) {
+        let enough = least_enough(&all).min(enough);
+        all.push(searched(bench, first, (timed, enough), progress));
+    }
+    for other in others {
+        let bench = prepare(form, records, &other);
+        let so_far = &all[leading(&all)];
+        // A past of some records against the rule may do the work of a cause in all of them.
+        let by_rule = || bench.train.wears_on && against_rule(so_far);
+        if misled(so_far) || by_rule() || so_far.may_be_beaten_by(&bench) {
+            progress(ONCE_MORE);
+            let enough = least_enough(&all).min(enough);
+            all.push(begun_and_searched(bench, (timed, enough), progress));
+        }
+    }
+    let likeliest = leading(&all);
+    all.swap_remove(likeliest)
+}
+
+/// True where every record whose first reading is not zero has turns before it.
+fn has_past(beginnings: &[Beginning], at_zero: &[bool]) -> bool {
+    let mut both = beginnings.iter().zip(at_zero);
+    both.all(|(begins, at_zero)| *at_zero || !begins.turned.is_empty())
+}
+
+/// What is found in records that do not begin with a virgin joint; once more where it leaves enough only when the
+/// turns before them are known better.
+fn begun_and_searched(
+    bench: Bench,
+    (timed, enough): (bool, f64),
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
+    let first = baseline(&bench.train);
+    let one = searched(bench, first, (timed, enough), progress).sharpened();
+    match one.found.beaten && one.dispersion() < enough {
+        true => {
+            let Investigation { bench, found } = one;
+            searched(bench, found.baseline, (timed, f64::INFINITY), progress).sharpened()
+        }
+        false => one,
+    }
+}
+
+/// The least of what is enough for others beside each of these.
+fn least_enough(all: &[Investigation]) -> f64 {
+    all.iter()
+        .map(Investigation::enough)
+        .fold(f64::INFINITY, f64::min)
+}
