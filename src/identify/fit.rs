@@ -125,22 +125,26 @@ pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
     refit_below(problem, start, effects, f64::INFINITY)
 }
 
+/// The fit with other effects, as they are, and the dictionary as it suits them.
+pub fn suited(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> Fit {
+    let other = Fit {
+        effects,
+        ..fit.clone()
+    };
+    let reached = Reached::at(problem, other.coefficients.clone(), other.acting()).suited(problem);
+    Fit {
+        coefficients: reached.coefficients,
+        misfit: reached.misfit,
+        offsets: reached.offsets,
+        ..other
+    }
+}
+
 /// The fit without one of its effects, the others as they are and the dictionary as it suits them.
 pub fn without(problem: &Problem, fit: &Fit, place: usize) -> Fit {
-    let mut less = fit.clone();
-    less.effects.remove(place);
-    let Reached {
-        coefficients,
-        misfit,
-        offsets,
-        ..
-    } = Reached::at(problem, less.coefficients.clone(), less.acting()).suited(problem);
-    Fit {
-        coefficients,
-        misfit,
-        offsets,
-        ..less
-    }
+    let mut others = fit.effects.clone();
+    others.remove(place);
+    suited(problem, fit, others)
 }
 
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.

@@ -42,7 +42,7 @@ pub mod weighing;
 
 pub use driven::as_driven;
 pub use family::{FamilyError, FamilyFit};
-pub use fit::{Fit, PROSPECT, baseline, glanced, refit, refit_below, without};
+pub use fit::{Fit, PROSPECT, baseline, glanced, refit, refit_below, suited, without};
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use prepared::Prepared;

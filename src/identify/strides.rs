@@ -1,9 +1,8 @@
 //! Search along a value that the answer follows in small jumps: between them there is no slope that
 //! would lead on.
 
-use super::fit::Fit;
+use super::fit::{Fit, suited};
 use super::problem::Problem;
-use super::reached::Reached;
 use super::series;
 use super::weighing::deviation;
 
@@ -62,18 +61,5 @@ fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> F
     let parameter = &effects[e].effect.parameters()[p];
     let value = &mut effects[e].values[p];
     *value = (*value * factor).clamp(parameter.lower, parameter.upper);
-    let Reached {
-        coefficients,
-        effects,
-        misfit,
-        offsets,
-        ..
-    } = Reached::at(problem, fit.coefficients.clone(), effects).suited(problem);
-    Fit {
-        coefficients,
-        offsets,
-        effects,
-        series: fit.series,
-        misfit,
-    }
+    suited(problem, fit, effects)
 }
