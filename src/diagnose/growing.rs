@@ -78,7 +78,7 @@ pub(super) fn grown(
 
 /// Evidence that a cause must have; where a channel shows less noise than it resolves, what models are wrong by shows,
 /// and a cause has to bring what makes any model likelier than another.
-fn wanted(bench: &Bench) -> f64 {
+fn evidence_wanted(bench: &Bench) -> f64 {
     let records = 0..bench.train.records.len();
     match records.into_iter().any(|k| bench.is_finer_than_read(k)) {
         true => alarm(&bench.train).max(ALARM),
@@ -101,7 +101,7 @@ impl Grow<'_> {
     /// The set with the trial that lowers the squared error most, held-out samples included, of those with
     /// enough evidence, theirs included, that [`Prospect::holds`] lets pass.
     fn next(&self, current: &Fit, trials: &[Trial], enough: f64) -> Option<Fit> {
-        let least = wanted(self.bench);
+        let least = evidence_wanted(self.bench);
         let reaches = |t: &&Trial| t.fit.misfit < enough;
         let next = match self.effort {
             Effort::Quick => trials.iter().find(|t| t.evidence >= least && reaches(t)),
@@ -173,7 +173,7 @@ impl Grow<'_> {
     /// of both gives back.
     fn elsewhere(&self, (baseline, best): (&Fit, &Fit), first: &[Trial]) -> Option<Fit> {
         let Grow { bench, .. } = *self;
-        let evident = wanted(bench);
+        let evident = evidence_wanted(bench);
         let began = best.effects.first();
         let others = at_other_places(&bench.train, &bench.scale, baseline, first);
         let mut beginnings: Vec<&Trial> = first

@@ -4,8 +4,9 @@
 use super::investigation::{Investigation, searched};
 use super::prepare::{Bench, form, prepare};
 use super::trials::ALARM;
-use crate::identify::baseline;
+
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
+use crate::identify::{Fit, baseline};
 use crate::record::Record;
 
 /// Said where the records are searched with another beginning.
@@ -29,7 +30,7 @@ pub(super) fn however_worn(
     bench.wear_on();
     let first = anew.found.baseline.clone();
     let enough = enough.min(anew.enough());
-    let on = searched(bench, first, (timed, enough), progress).sharpened();
+    let on = sharply_searched(bench, first, (timed, enough), progress);
     anew.or_likelier(on)
 }
 
@@ -128,14 +129,24 @@ fn has_past(beginnings: &[Beginning], at_zero: &[bool]) -> bool {
     both.all(|(begins, at_zero)| *at_zero || !begins.turned.is_empty())
 }
 
-/// What is found in records that do not begin with a virgin joint; once more where it leaves enough only when the
-/// turns before them are known better.
+/// What is found in records that do not begin with a virgin joint.
 fn begun_and_searched(
     bench: Bench,
-    (timed, enough): (bool, f64),
+    asked: (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let first = baseline(&bench.train);
+    sharply_searched(bench, first, asked, progress)
+}
+
+/// What is found from a baseline, with the turns before the records as that suits them; once more where it leaves
+/// little enough only when they are known better.
+fn sharply_searched(
+    bench: Bench,
+    first: Fit,
+    (timed, enough): (bool, f64),
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
     let one = searched(bench, first, (timed, enough), progress).sharpened();
     match one.found.beaten && one.dispersion() < enough {
         true => {
