@@ -70,9 +70,10 @@ fn made_anew(
             .fold(f64::INFINITY, f64::min);
         let unlikely = |i: &Investigation| {
             // Where a past is the rule, a virgin joint and a cause that does its work are two oddities; so is a past
-            // where none is the rule, which may do the work of a cause.
+            // where none is the rule, which may do the work of a cause, and a cause that may do the work of a past.
             let plainly_virgin = i.is_virgin() && i.found.best.effects.is_empty();
             let oddities = match (against_rule(i), plainly_virgin) {
+                (false, _) if i.is_virgin() && i.tells_of_first_turns_alone() => 2.0,
                 (false, _) => 0.0,
                 (true, true) => 1.0,
                 (true, false) => 2.0,

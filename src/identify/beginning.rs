@@ -277,18 +277,23 @@ fn moved(
 
 /// Samples until the load has turned twice: what came before the record is forgotten by then, or nearly so.
 pub fn early(input: &[f64]) -> usize {
-    turning_points(input, BAND)
-        .get(2)
-        .map_or(0, |second| second + 1)
+    turns(input).get(1).map_or(0, |second| second + 1)
+}
+
+/// Where the load turns within the record: not at the first sample, nor where a load at rest only trembles before it
+/// sets out.
+fn turns(input: &[f64]) -> Vec<usize> {
+    let dead = BAND * span(input);
+    let set_out = |turn: &usize| (input[*turn] - input[0]).abs() > dead;
+    let all = turning_points(input, BAND).into_iter();
+    all.skip_while(|turn| !set_out(turn)).collect()
 }
 
 /// Readings between which the load may have gone before, and where it turned last: between the first turns of
 /// the record, its whole range, or half way, as in a test that grows.
 fn histories(input: &[f64]) -> [Vec<Beginning>; 3] {
     let start = input[0];
-    let turns = turning_points(input, BAND);
-    // Without the first sample, which counts as a turn and is none.
-    let first = low_high(turns[1..=2].iter().map(|&t| input[t]));
+    let first = low_high(turns(input)[..2].iter().map(|&turn| input[turn]));
     let whole = low_high(input.iter().copied());
     let between = (0.5 * (first.0 + whole.0), 0.5 * (first.1 + whole.1));
     [first, between, whole].map(|(low, high)| {
@@ -446,6 +451,20 @@ mod tests {
             let problem = record_of([1000.0, 650.0, 350.0, 500.0, 1000.0], from, 0.0);
             leaves_noise_alone(&problem, &found(&problem).unwrap());
         }
+    }
+
+    #[test]
+    fn a_load_that_trembles_at_rest_has_not_turned() {
+        let load: Vec<f64> = (0..400).map(|i| (0.05 * f64::from(i)).sin()).collect();
+        let at_rest = (0..20).map(|i| if i == 7 { -1e-3 } else { 0.0 });
+        let later: Vec<f64> = at_rest.chain(load.iter().copied()).collect();
+        let two = early(&load);
+        assert_eq!(early(&later), 20 + two);
+        // Three quarters of a circle.
+        assert_eq!(
+            two,
+            (0.75 * std::f64::consts::TAU / 0.05).round() as usize + 1
+        );
     }
 
     /// With that beginning, where a virgin joint leaves far more.
