@@ -7,7 +7,8 @@ use crate::joint::parameters::Parameter;
 
 /// A compliance that acts beyond a force on one side only: `δ = c max(F − F_o, 0)` for `F_o ≥ 0`,
 /// `δ = −c max(F_o − F, 0)` for `F_o < 0`; where the surfaces part little by little, max(x, 0) is rounded to
-/// `g(x) = (x + √(x² + r²))/2`, less what it is at no force.
+/// `g(x) = (x + √(x² + r²))/2`, less what it is at no force. With `c < 0` the joint is open at rest and the surfaces meet
+/// at `F_o`.
 ///
 /// Or a stiffness across the whole joint on one side of rest, of surfaces that meet there:
 /// `f = k_c max(U, 0)`, and for `k_c < 0`, on the other side, `f = −|k_c| max(−U, 0)`; where they meet
@@ -19,11 +20,12 @@ static PARAMETERS: [Parameter; 5] = [
         name: "compliance",
         symbol: "c_o",
         unit: "m/N",
-        lower: 0.0,
+        // Of a joint that is open at rest, and closes at the force.
+        lower: -1.0,
         upper: 1.0,
         vanishes_at: Some(0.0),
         neutral: Some(0.0),
-        meaning: "compliance that the opened joint has beyond that of the closed one",
+        meaning: "compliance that the opened joint has beyond that of the closed one; negative where the surfaces meet at the force instead of parting",
     },
     Parameter {
         name: "opening_force",
@@ -176,6 +178,9 @@ mod tests {
         assert_eq!(at(-3.0, 5.0), Response::default());
         assert_eq!(at(0.0, 1.0).value, 2.0);
         assert_eq!(at(0.0, -1.0).value, 0.0);
+        // Open at rest: stiffer from where the surfaces meet.
+        let closes = JointOpening.spring(&[-2.0, 3.0, 0.0, 0.0, 0.0], 5.0);
+        assert_eq!((closes.value, closes.slope), (-4.0, -2.0));
     }
 
     #[test]

@@ -149,8 +149,12 @@ impl Cause for OffsetStep {
         (after - before > HIGHER * peak_until(f64::INFINITY))
             .then_some("the force was higher than ever before when the reading jumped, so the specimen may have settled")
     }
-    /// What a record begins or ends with is no jump in it: a joint that was loaded before begins like that.
+    /// What a record begins or ends with is no jump in it: a joint that was loaded before begins like that. Nor is what
+    /// goes on for longer than the slowest.
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
+        if values[2] <= SLOWEST {
+            return false;
+        }
         let mut begins = 0.0;
         for length in &scale.lengths {
             let within = values[1] - begins;
@@ -253,6 +257,8 @@ mod tests {
             assert_eq!(plausible(time, sharpness), is, "{time}");
         }
         assert!(plausible(0.05, SHARPEST) && !plausible(0.03, SHARPEST));
+        // A drift for a while.
+        assert!(!plausible(5.0, SLOWEST) && plausible(5.0, 1.1 * SLOWEST));
     }
 
     /// A jump while the force passes its highest value yet has a double, one at a lower peak later has none.

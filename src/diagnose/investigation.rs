@@ -276,7 +276,9 @@ impl Investigation {
                         continue;
                     }
                     let (input, _) = train.channels(k);
-                    let (_, found) = past(input, |begins| left(&train, &fit, (k, begins)))?;
+                    let samples = input.len() as f64;
+                    let beside = |begins: &Beginning| left(&train, &fit, (k, begins));
+                    let (_, found) = past((input, samples), beside)?;
                     train.records[k].beginning = found;
                 }
                 fit = refit(&train, &fit, fit.effects.clone());

@@ -11,6 +11,7 @@ use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::Problem;
 use crate::record::cycles::{cycles, span, turning_points};
+use crate::record::noise::independence;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
@@ -157,28 +158,38 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     };
     let virgin = Beginning::default();
     let few = thinned(form, record, forgotten);
+    // Slow noise is followed by any freedom: it counts for as few samples as vary by themselves.
+    let weighted = record.weight.iter().filter(|w| **w > 0.0).count() as f64;
+    let samples = match few.autoregression == record.autoregression {
+        true => weighted,
+        false => weighted * independence(record.autoregression),
+    };
     let altogether = |beginning: &Beginning| least_misfit(&alone(form, &few, beginning));
     let (virgin_early, virgin_all) = rayon::join(|| left_early(&virgin), || altogether(&virgin));
-    let best = past(input, altogether);
+    let best = past((input, samples), altogether);
     let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
     };
     let (all, best) = moved(best, altogether, (3..=FINE, SWEEPS));
     let nearer = offset || left_early(&best) < HALF * virgin_early;
-    match nearer && wins(all, virgin_all, judged.len()) {
+    match nearer && wins(all, virgin_all, samples) {
         true => best,
         false => virgin,
     }
 }
 
 /// True where what is left falls by enough for another beginning.
-pub(super) fn wins(all: f64, before: f64, samples: usize) -> bool {
-    before - all > FALL * all / samples as f64
+pub(super) fn wins(all: f64, before: f64, samples: f64) -> bool {
+    before - all > FALL * all / samples
 }
 
 /// The turns before a record that leave least, by what `left` says of a beginning, and how much that is; `None` of a
-/// record whose load turns less than twice.
-pub fn past(input: &[f64], left: impl Fn(&Beginning) -> f64 + Sync) -> Option<(f64, Beginning)> {
+/// record whose load turns less than twice. A further turn has to bring its part of what is left per sample, of
+/// `samples` that vary by themselves.
+pub fn past(
+    (input, samples): (&[f64], f64),
+    left: impl Fn(&Beginning) -> f64 + Sync,
+) -> Option<(f64, Beginning)> {
     if early(input) == 0 {
         return None;
     }
@@ -197,7 +208,7 @@ pub fn past(input: &[f64], left: impl Fn(&Beginning) -> f64 + Sync) -> Option<(f
             let tried = longer(&best.turned).into_par_iter();
             let tried = tried.map(|turned| sharpened(Beginning::behind(turned), &left));
             let nearest = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
-            match nearest.filter(|longer| wins(longer.0, all, input.len())) {
+            match nearest.filter(|longer| wins(longer.0, all, samples)) {
                 Some(longer) => (all, best) = longer,
                 None => break,
             }

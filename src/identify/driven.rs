@@ -21,7 +21,8 @@ pub fn as_driven(form: Form, records: &[Record]) -> Vec<Record> {
         .collect();
     let left = |records: &[Record]| least_misfit(&Problem::new(form, records));
     let (smooth, other) = rayon::join(|| left(records), || left(&straight));
-    match wins(other, smooth, records.iter().map(Record::len).sum()) {
+    let samples: usize = records.iter().map(Record::len).sum();
+    match wins(other, smooth, samples as f64) {
         true => straight,
         false => records.to_vec(),
     }

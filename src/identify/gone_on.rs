@@ -21,7 +21,7 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
         return vec![nearest];
     }
     let left = |beginnings: &[Beginning]| least_misfit(&begun(problem, beginnings));
-    let samples = problem.rows();
+    let samples = problem.rows() as f64;
     let mut anew = vec![false; problem.records.len()];
     let mut on = in_order(problem, &nearest, &anew);
     let mut left_on = left(&on);
