@@ -212,7 +212,12 @@ fn structure(problem: &Problem, fit: &Fit) -> f64 {
 
 /// True where a set leaves misfit that noise alone does not.
 pub(super) fn leaves_structure(problem: &Problem, fit: &Fit) -> bool {
-    places::beyond_scatter(problem, fit) > STRUCTURE * problem.rows() as f64
+    structure_left(problem, fit) > 0.0
+}
+
+/// Misfit by which a set leaves more than noise alone does.
+pub(super) fn structure_left(problem: &Problem, fit: &Fit) -> f64 {
+    places::beyond_scatter(problem, fit) - STRUCTURE * problem.rows() as f64
 }
 
 /// Misfit that one cause of several has to take away beside the others.

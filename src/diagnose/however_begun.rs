@@ -1,10 +1,12 @@
 //! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint; and
 //! however its joint wears.
 
+use super::growing::{leaves_structure, structure_left};
 use super::investigation::{Investigation, searched};
 use super::prepare::{Bench, form, prepare};
-use super::trials::ALARM;
+use super::trials::{ALARM, Effort, trials_of};
 
+use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
 use crate::identify::{Fit, baseline};
 use crate::record::Record;
@@ -12,6 +14,9 @@ use crate::record::Record;
 /// Said where the records are searched with another beginning.
 const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
+
+/// Said where wear of one record is taken to the next.
+const WORN_ON: &str = "once more: wear may go on from record to record";
 
 /// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
 ///
@@ -21,11 +26,18 @@ pub(super) fn however_worn(
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    let anew = made_anew(records, (timed, enough), progress);
+    progress("noise and baseline");
+    let form = form(records);
+    let virgin = prepare(form, records, &vec![Beginning::default(); records.len()]);
+    let first = baseline(&virgin.train);
+    if let Some(on) = worn_by_one_cause((&virgin, &first), (timed, enough), progress) {
+        return on;
+    }
+    let anew = made_anew(records, (virgin, first), (timed, enough), progress);
     if !anew.may_wear_on() {
         return anew;
     }
-    progress("once more: wear may go on from record to record");
+    progress(WORN_ON);
     let mut bench = anew.bench.clone();
     bench.wear_on();
     let first = anew.found.baseline.clone();
@@ -34,18 +46,53 @@ pub(super) fn however_worn(
     anew.or_likelier(on)
 }
 
+/// What is found in records of virgin joints where wear goes on from one to the next, if one cause that wears leaves
+/// noise alone and none does that is asked of joints made anew: several, which may, are less likely.
+fn worn_by_one_cause(
+    (virgin, first): (&Bench, &Fit),
+    (timed, enough): (bool, f64),
+    progress: &mut impl FnMut(&str),
+) -> Option<Investigation> {
+    let train = &virgin.train;
+    if train.records.len() < 2 || !virgin.noise_is_repeated() || !leaves_structure(train, first) {
+        return None;
+    }
+    let mut bench = virgin.clone();
+    bench.wear_on();
+    let wears = |cause: &dyn Cause| cause.effect().lasting() > 0;
+    let noise_alone = first.misfit - structure_left(train, first);
+    if !one_leaves((&bench, first), wears, noise_alone) {
+        return None;
+    }
+    progress(WORN_ON);
+    let on = searched(bench, first.clone(), (timed, enough), progress);
+    let one =
+        on.found.best.effects.len() == 1 && !leaves_structure(&on.bench.train, &on.found.best);
+    let near = on.found.best.misfit + ALARM * on.dispersion();
+    let usable = |cause: &dyn Cause| timed || !cause.needs_time();
+    (one && !one_leaves((virgin, first), usable, near)).then_some(on)
+}
+
+/// True where one of the causes that are `usable` leaves less than a misfit beside the baseline.
+fn one_leaves(
+    (bench, first): (&Bench, &Fit),
+    usable: impl Fn(&dyn Cause) -> bool,
+    misfit: f64,
+) -> bool {
+    let asked = (Effort::Full, misfit);
+    let tried = trials_of(usable, &bench.train, &bench.scale, first, asked);
+    tried.iter().any(|t| t.plausible && t.fit.misfit < misfit)
+}
+
 /// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
 /// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
 fn made_anew(
     records: &[Record],
+    (bench, first): (Bench, Fit),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    progress("noise and baseline");
-    let virgin = vec![Beginning::default(); records.len()];
-    let form = form(records);
-    let bench = prepare(form, records, &virgin);
-    let first = baseline(&bench.train);
+    let form = bench.train.operators.form;
     let mut others = beginnings(&bench.train, &first);
     // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
     let train = &bench.train;
@@ -89,6 +136,24 @@ fn made_anew(
         o.iter().any(|b| b.goes_on) || at_zero.contains(&false) && has_past(o, &at_zero)
     });
     let mut all = Vec::new();
+    if !past_is_rule && leaves_structure(&bench.train, &first) && !others.is_empty() {
+        // A past that alone leaves noise is asked first, although it is against the rule: several causes of a virgin
+        // joint, which may, are less likely.
+        let begun = prepare(form, records, &others[0]);
+        if begun.noise_is_repeated() && !leaves_structure(&begun.train, &baseline(&begun.train)) {
+            others.remove(0);
+            progress(ONCE_MORE);
+            let one = begun_and_searched(begun, (timed, enough), progress);
+            let sought: usize = one.beginnings().map(Beginning::values).sum();
+            let values = sought as f64 * (one.bench.train.rows().max(3) as f64).ln();
+            let near = one.found.best.misfit + (2.0 * ALARM + values) * one.dispersion();
+            let usable = |cause: &dyn Cause| timed || !cause.needs_time();
+            if one.is_plain() && !one_leaves((&bench, &first), usable, near) {
+                return one;
+            }
+            all.push(one);
+        }
+    }
     if past_is_rule {
         let begun = prepare(form, records, &others.remove(0));
         let one = begun_and_searched(begun, (timed, enough), progress);

@@ -77,7 +77,7 @@ const DOUBTFUL: f64 = 2.0;
 const HALF: f64 = 0.5;
 
 /// Fall of the misfit, over what is left per sample, that another beginning must bring.
-const FALL: f64 = 30.0;
+pub(super) const FALL: f64 = 30.0;
 
 /// Share of the range below which a turn of the load is none.
 pub const BAND: f64 = 0.02;
