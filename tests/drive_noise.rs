@@ -106,13 +106,13 @@ fn the_channel_that_repeats_drives() {
                 ..LOUD
             },
         )];
-        let judged = iwan::diagnose::prepare::form(&records).judged();
+        let judged = iwan::diagnose::judged_channel::form(&records).judged();
         assert_eq!(judged, ("force", "N"), "seed {seed}");
         let mut swapped = records;
         for record in &mut swapped {
             std::mem::swap(&mut record.force, &mut record.displacement);
         }
-        let judged = iwan::diagnose::prepare::form(&swapped).judged();
+        let judged = iwan::diagnose::judged_channel::form(&swapped).judged();
         assert_eq!(judged, ("displacement", "m"), "seed {seed}");
     }
 }

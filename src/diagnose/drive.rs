@@ -1,6 +1,6 @@
 //! The noise of the channel that drives, of which the joint felt nothing.
 
-use super::prepare::compliance_ratio;
+use super::judged_channel::compliance_ratio;
 use crate::identify::Form;
 use crate::record::Record;
 use crate::record::calm::{calmed, fastest};

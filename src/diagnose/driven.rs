@@ -1,9 +1,9 @@
 //! Whether the drive turns between its samples, asked again beside the causes that were found.
 
 use super::growing::leaves_structure;
-use super::however_begun::however_worn;
+use super::however_worn::however_worn;
 use super::investigation::Investigation;
-use super::prepare::form;
+use super::judged_channel::form;
 use super::trials::{ALARM, Effort, trials};
 use crate::identify::{as_driven, baseline, refit_below};
 use crate::record::Record;

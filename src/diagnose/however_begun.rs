@@ -1,9 +1,8 @@
-//! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint; and
-//! however its joint wears.
+//! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint.
 
-use super::growing::{leaves_structure, structure_left};
+use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
-use super::prepare::{Bench, form, prepare};
+use super::prepare::{Bench, prepare};
 use super::trials::{ALARM, Effort, trials_of};
 
 use crate::causes::Cause;
@@ -15,78 +14,11 @@ use crate::record::Record;
 const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
 
-/// Said where wear of one record is taken to the next.
-const WORN_ON: &str = "once more: wear may go on from record to record";
-
-/// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
-///
-/// What leaves more than `enough` of every row, in noise variances, is not asked further.
-pub(super) fn however_worn(
-    records: &[Record],
-    (timed, enough): (bool, f64),
-    progress: &mut impl FnMut(&str),
-) -> Investigation {
-    progress("noise and baseline");
-    let form = form(records);
-    let virgin = prepare(form, records, &vec![Beginning::default(); records.len()]);
-    let first = baseline(&virgin.train);
-    if let Some(on) = worn_by_one_cause((&virgin, &first), (timed, enough), progress) {
-        return on;
-    }
-    let anew = made_anew(records, (virgin, first), (timed, enough), progress);
-    if !anew.may_wear_on() {
-        return anew;
-    }
-    progress(WORN_ON);
-    let mut bench = anew.bench.clone();
-    bench.wear_on();
-    let first = anew.found.baseline.clone();
-    let enough = enough.min(anew.enough());
-    let on = sharply_searched(bench, first, (timed, enough), progress);
-    anew.or_likelier(on)
-}
-
-/// What is found in records of virgin joints where wear goes on from one to the next, if one cause that wears leaves
-/// noise alone and none does that is asked of joints made anew: several, which may, are less likely.
-fn worn_by_one_cause(
-    (virgin, first): (&Bench, &Fit),
-    (timed, enough): (bool, f64),
-    progress: &mut impl FnMut(&str),
-) -> Option<Investigation> {
-    let train = &virgin.train;
-    if train.records.len() < 2 || !virgin.noise_is_repeated() || !leaves_structure(train, first) {
-        return None;
-    }
-    let mut bench = virgin.clone();
-    bench.wear_on();
-    let wears = |cause: &dyn Cause| cause.effect().lasting() > 0;
-    let noise_alone = first.misfit - structure_left(train, first);
-    if !one_leaves((&bench, first), wears, noise_alone) {
-        return None;
-    }
-    progress(WORN_ON);
-    let on = searched(bench, first.clone(), (timed, enough), progress);
-    let one =
-        on.found.best.effects.len() == 1 && !leaves_structure(&on.bench.train, &on.found.best);
-    let near = on.found.best.misfit + ALARM * on.dispersion();
-    let usable = |cause: &dyn Cause| timed || !cause.needs_time();
-    (one && !one_leaves((virgin, first), usable, near)).then_some(on)
-}
-
-/// True where one of the causes that are `usable` leaves less than a misfit beside the baseline.
-fn one_leaves(
-    (bench, first): (&Bench, &Fit),
-    usable: impl Fn(&dyn Cause) -> bool,
-    misfit: f64,
-) -> bool {
-    let asked = (Effort::Full, misfit);
-    let tried = trials_of(usable, &bench.train, &bench.scale, first, asked);
-    tried.iter().any(|t| t.plausible && t.fit.misfit < misfit)
-}
-
 /// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
 /// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
-fn made_anew(
+///
+/// `bench` has the records of virgin joints, `first` is their baseline.
+pub(super) fn made_anew(
     records: &[Record],
     (bench, first): (Bench, Fit),
     (timed, enough): (bool, f64),
@@ -148,7 +80,7 @@ fn made_anew(
             let values = sought as f64 * (one.bench.train.rows().max(3) as f64).ln();
             let near = one.found.best.misfit + (2.0 * ALARM + values) * one.dispersion();
             let usable = |cause: &dyn Cause| timed || !cause.needs_time();
-            if one.is_plain() && !one_leaves((&bench, &first), usable, near) {
+            if one.is_plain() && !one_leaves((&bench, &first), usable, (Effort::Full, near)) {
                 return one;
             }
             all.push(one);
@@ -207,14 +139,14 @@ fn begun_and_searched(
 
 /// What is found from a baseline, with the turns before the records as that suits them; once more where it leaves
 /// little enough only when they are known better.
-fn sharply_searched(
+pub(super) fn sharply_searched(
     bench: Bench,
     first: Fit,
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let one = searched(bench, first, (timed, enough), progress).sharpened();
-    match one.found.beaten && one.dispersion() < enough {
+    match one.found.beaten && one.left() < enough {
         true => {
             let Investigation { bench, found } = one;
             searched(bench, found.baseline, (timed, f64::INFINITY), progress).sharpened()
@@ -228,4 +160,15 @@ fn least_enough(all: &[Investigation]) -> f64 {
     all.iter()
         .map(Investigation::enough)
         .fold(f64::INFINITY, f64::min)
+}
+
+/// True where one of the causes that are `usable` leaves less than a misfit beside the baseline.
+pub(super) fn one_leaves(
+    (bench, first): (&Bench, &Fit),
+    usable: impl Fn(&dyn Cause) -> bool,
+    asked: (Effort, f64),
+) -> bool {
+    let (_, misfit) = asked;
+    let tried = trials_of(usable, &bench.train, &bench.scale, first, asked);
+    tried.iter().any(|t| t.plausible && t.fit.misfit < misfit)
 }

@@ -49,8 +49,8 @@ fn suited_without(train: &Problem, best: &Fit, place: usize) -> f64 {
     refit(train, &less, less.effects.clone()).misfit
 }
 
-/// What is found from the baseline of the records as they are weighed; what leaves more than `enough` of every row, in
-/// noise variances, is not asked further.
+/// What is found from the baseline of the records as they are weighed; what leaves more than `enough` of every row is not
+/// asked further.
 pub(super) fn searched(
     mut bench: Bench,
     mut first: Fit,
@@ -64,11 +64,7 @@ pub(super) fn searched(
             first = baseline(&bench.train);
         }
     }
-    // Noise that is what models leave says nothing of how much another model leaves.
-    let enough = match bench.noise_is_repeated() {
-        true => enough,
-        false => f64::INFINITY,
-    };
+    let enough = enough / bench.innovation_square();
     progress("searching the catalogue for causes");
     let found = search(&mut bench, timed, first, enough);
     bench.weigh_what_is_left(&found.best);
@@ -91,14 +87,20 @@ impl Investigation {
         dispersion(&self.bench.train, &self.found.best)
     }
 
-    /// What other beginnings, drives or wear may leave of every row, in noise variances, and still be asked further
-    /// beside what was found here.
+    /// What is left of every row, as a square of the judged channel.
+    pub(super) fn left(&self) -> f64 {
+        self.dispersion() * self.bench.innovation_square()
+    }
+
+    /// What other beginnings, drives or wear may leave of every row, as such a square, and still be asked further beside
+    /// what was found here: [`FAR`] times as much beyond noise, or of all where noise is what the model leaves.
     pub(super) fn enough(&self) -> f64 {
         let rows = self.bench.train.rows().max(1) as f64;
         let beyond = (self.dispersion() - 1.0).max(SLIGHT + ALARM / rows);
-        match self.bench.noise_is_repeated() && !self.found.beaten {
-            true => 1.0 + FAR * beyond,
-            false => f64::INFINITY,
+        match (self.found.beaten, self.bench.noise_is_repeated()) {
+            (true, _) => f64::INFINITY,
+            (false, true) => self.bench.innovation_square() * (1.0 + FAR * beyond),
+            (false, false) => FAR * self.left(),
         }
     }
 

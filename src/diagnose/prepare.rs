@@ -1,4 +1,4 @@
-//! Before any fit: the form the records are judged in, their noise, what is held out.
+//! Before any fit: the noise of the records, and what is held out.
 
 use super::gridded::{fitted, resolve};
 use super::mains_phase;
@@ -8,14 +8,12 @@ use crate::causes::Scale;
 use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::calm::fastest;
-use crate::record::cycles::{rms, span};
-use crate::record::mains::{beneath_mains, without_lines};
+use crate::record::cycles::rms;
+use crate::record::mains::without_lines;
 use crate::record::noise::{Noise, from_differences, from_residual};
 use crate::record::repeats::{from_repeats, from_steady_changes};
 use crate::record::resolution::resolution;
 use crate::record::split::{Fitted, held_out, held_out_elsewhere};
-use std::cmp::Ordering;
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -48,95 +46,6 @@ const NEARLY_RIGHT: f64 = 0.1;
 
 /// Standard deviations that the noise's variance may lie off.
 const SCATTER: f64 = 3.0;
-
-/// Ratio of largest to smallest secant compliance beyond which the force-driven form is
-/// ill-conditioned (compliance grows without bound at full slip).
-const DEEP_SLIP: f64 = 8.0;
-
-/// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply
-/// that displacement has to be.
-pub fn form(records: &[Record]) -> Form {
-    if records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP) {
-        return Form::Stop;
-    }
-    let (mut force, mut displacement) = (0.0, 0.0);
-    for record in records {
-        let noise = |channel: &[f64]| {
-            // A hum on a prescribed displacement is the sensor's: it says nothing of who drives.
-            let fast = match &record.time {
-                Some(time) => beneath_mains(time, channel),
-                None => from_differences(channel),
-            };
-            // Nor is what a few samples of a smooth channel bend by.
-            let fast = fast.deviation.min(fastest(channel));
-            let repeated = from_repeats(&record.force, channel)
-                .or_else(|| from_repeats(&record.displacement, channel));
-            // What drifts or jumps from cycle to cycle is no noise; what is sharp in every cycle neither.
-            let noise = repeated.map_or(fast, |noise| noise.deviation.min(fast));
-            // What repeats to the last digit was still read by a converter.
-            noise.max(resolution(channel)) / rms(channel)
-        };
-        force += noise(&record.force);
-        displacement += noise(&record.displacement);
-    }
-    let alike = (force / displacement).max(displacement / force) < ALIKE;
-    if alike && let Some(drives) = commanded(records) {
-        return drives;
-    }
-    // Of two that show no noise at all neither is the more.
-    if displacement >= force * (1.0 - f64::EPSILON.sqrt()) {
-        Form::Play
-    } else {
-        Form::Stop
-    }
-}
-
-/// Ratio of the channels' fast noise up to which it does not tell which of them drives: of slow noise, which only
-/// cycles that repeat show whole, a third is fast.
-const ALIKE: f64 = 3.0;
-
-/// The form in which the channel that repeats by itself drives: what answers it repeats up to its noise alone.
-/// `None` where neither or both do.
-fn commanded(records: &[Record]) -> Option<Form> {
-    let repeats = |form: Form| {
-        let judged = records.iter().filter(|record| {
-            let (drive, response) = form.channels(record);
-            from_repeats(drive, response).is_some()
-        });
-        judged.count()
-    };
-    match repeats(Form::Play).cmp(&repeats(Form::Stop)) {
-        Ordering::Greater => Some(Form::Play),
-        Ordering::Less => Some(Form::Stop),
-        Ordering::Equal => None,
-    }
-}
-
-/// Largest over smallest secant compliance, from the peaks of the loops: the smallest from the
-/// steepest tenth of local slopes, the largest from the overall range.
-pub fn compliance_ratio(record: &Record) -> f64 {
-    let (force, displacement) = (span(&record.force), span(&record.displacement));
-    if !(force > 0.0 && displacement > 0.0) {
-        return 1.0;
-    }
-    // Slopes over pieces of a twentieth of the force range, so that noise matters little.
-    let mut slopes = Vec::new();
-    let mut from = 0;
-    for i in 1..record.len() {
-        let rise = record.force[i] - record.force[from];
-        if rise.abs() > 0.05 * force {
-            slopes.push((record.displacement[i] - record.displacement[from]) / rise);
-            from = i;
-        }
-    }
-    slopes.retain(|s| *s > 0.0);
-    if slopes.is_empty() {
-        return 1.0;
-    }
-    slopes.sort_by(f64::total_cmp);
-    let stiff = slopes[slopes.len() / 10];
-    displacement / force / stiff
-}
 
 /// Prepares records with their beginnings in a form: first unweighted baseline, noise, weights, marks.
 pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Bench {
@@ -227,6 +136,17 @@ impl Bench {
         self.noise
             .iter()
             .any(|n| !n.repeated && n.autoregression > SLOW)
+    }
+
+    /// Square of the noise's innovations, their geometric mean over the weighted samples, in units of the judged channel.
+    pub fn innovation_square(&self) -> f64 {
+        let weights = self.train.records.iter().flat_map(|r| &r.weight);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for weight in weights.filter(|w| **w > 0.0) {
+            sum -= 2.0 * weight.ln();
+            count += 1.0;
+        }
+        (sum / f64::max(count, 1.0)).exp()
     }
 
     /// True where a record shows less noise than its channel resolves: what laws are wrong by is seen beside it.

@@ -1,7 +1,8 @@
 //! What a diagnosis says in words.
 
 use super::findings::{Findings, Verdict};
-use super::prepare::{Bench, compliance_ratio};
+use super::judged_channel::compliance_ratio;
+use super::prepare::Bench;
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
 use crate::record::Record;
