@@ -36,7 +36,7 @@ const PREDICTORS: usize = 4;
 /// First causes, best first, beside which a second one is looked for where the set leaves structure.
 const BEGINNINGS: usize = 6;
 
-/// Forward selection with joint refits and pruning; the set, and the trials beside the baseline.
+/// Forward selection with joint refits and pruning, from the `trials` beside the baseline.
 ///
 /// The first cause that is taken need not be of the true set: one that is neither of two may take more than
 /// each of them. Where the set leaves structure, it is grown from other first causes as well. Sets without prospect of a
@@ -44,9 +44,9 @@ const BEGINNINGS: usize = 6;
 pub(super) fn grown(
     bench: &Bench,
     timed: bool,
-    baseline: &Fit,
+    (baseline, trials): (&Fit, &[Trial]),
     (effort, wanted): (Effort, f64),
-) -> (Fit, Vec<Trial>) {
+) -> Fit {
     let least = least(&bench.train, baseline);
     let grow = Grow {
         bench,
@@ -55,25 +55,18 @@ pub(super) fn grown(
         least,
         wanted,
     };
-    let trials = trials(
-        &bench.train,
-        &bench.scale,
-        timed,
-        baseline,
-        (effort, f64::INFINITY),
-    );
     // Of two neither may predict held-out cycles without the other.
-    let mut best = match grow.next(baseline, &trials, f64::INFINITY) {
-        Some(one) => grow.on(one, &trials),
+    let mut best = match grow.next(baseline, trials, f64::INFINITY) {
+        Some(one) => grow.on(one, trials),
         None => baseline.clone(),
     };
     if effort == Effort::Full
         && grow.leaves_another(baseline, &best)
-        && let Some(two) = grow.elsewhere((baseline, &best), &trials)
+        && let Some(two) = grow.elsewhere((baseline, &best), trials)
     {
-        best = grow.on(two, &trials);
+        best = grow.on(two, trials);
     }
-    (best, trials)
+    best
 }
 
 /// Evidence that a cause must have; where a channel shows less noise than it resolves, what models are wrong by shows,

@@ -2,8 +2,9 @@
 
 use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
+use super::judged_channel::form;
 use super::prepare::{Bench, prepare};
-use super::trials::{ALARM, Effort, trials_of};
+use super::trials::{ALARM, Effort, Trial, trials_of};
 
 use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
@@ -14,18 +15,45 @@ use crate::record::Record;
 const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
 
+/// Records of virgin joints before any search.
+pub(super) struct Virgin {
+    pub(super) bench: Bench,
+    pub(super) first: Fit,
+    /// Other beginnings that are worth a search.
+    pub(super) others: Vec<Vec<Beginning>>,
+    /// Every cause alone, where that was asked.
+    pub(super) alone: Option<Vec<Trial>>,
+}
+
+impl Virgin {
+    pub(super) fn of(records: &[Record]) -> Virgin {
+        let virgin = vec![Beginning::default(); records.len()];
+        let bench = prepare(form(records), records, &virgin);
+        let first = baseline(&bench.train);
+        Virgin {
+            others: beginnings(&bench.train, &first),
+            bench,
+            first,
+            alone: None,
+        }
+    }
+}
+
 /// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
 /// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
-///
-/// `bench` has the records of virgin joints, `first` is their baseline.
 pub(super) fn made_anew(
     records: &[Record],
-    (bench, first): (Bench, Fit),
+    virgin: Virgin,
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
+    let Virgin {
+        bench,
+        first,
+        mut others,
+        alone,
+    } = virgin;
     let form = bench.train.operators.form;
-    let mut others = beginnings(&bench.train, &first);
     // Who starts a record at zero has a joint without a past as a rule, and who starts elsewhere no virgin one.
     let train = &bench.train;
     let at_zero: Vec<bool> = (0..records.len())
@@ -104,7 +132,7 @@ pub(super) fn made_anew(
     let gone_on = all.first().is_some_and(Investigation::goes_on);
     if !gone_on || all[0].may_be_beaten_by(&bench) {
         let enough = least_enough(&all).min(enough);
-        all.push(searched(bench, first, (timed, enough), progress));
+        all.push(searched(bench, (first, alone), (timed, enough), progress));
     }
     for other in others {
         let bench = prepare(form, records, &other);
@@ -145,11 +173,12 @@ pub(super) fn sharply_searched(
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    let one = searched(bench, first, (timed, enough), progress).sharpened();
+    let one = searched(bench, (first, None), (timed, enough), progress).sharpened();
     match one.found.beaten && one.left() < enough {
         true => {
             let Investigation { bench, found } = one;
-            searched(bench, found.baseline, (timed, f64::INFINITY), progress).sharpened()
+            let asked = (timed, f64::INFINITY);
+            searched(bench, (found.baseline, None), asked, progress).sharpened()
         }
         false => one,
     }

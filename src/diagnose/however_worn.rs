@@ -1,15 +1,12 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
 use super::growing::{leaves_structure, structure_left};
-use super::however_begun::{made_anew, one_leaves, sharply_searched};
+use super::however_begun::{Virgin, made_anew, one_leaves, sharply_searched};
 use super::investigation::{Investigation, searched};
-use super::judged_channel::form;
-use super::prepare::{Bench, prepare};
+use super::search::alone;
 use super::trials::{ALARM, Effort};
 
 use crate::causes::Cause;
-use crate::identify::beginning::Beginning;
-use crate::identify::{Fit, baseline};
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -24,13 +21,11 @@ pub(super) fn however_worn(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     progress("noise and baseline");
-    let form = form(records);
-    let virgin = prepare(form, records, &vec![Beginning::default(); records.len()]);
-    let first = baseline(&virgin.train);
-    if let Some(on) = worn_by_one_cause((&virgin, &first), (timed, enough), progress) {
+    let mut virgin = Virgin::of(records);
+    if let Some(on) = worn_by_one_cause(&mut virgin, (timed, enough), progress) {
         return on;
     }
-    let anew = made_anew(records, (virgin, first), (timed, enough), progress);
+    let anew = made_anew(records, virgin, (timed, enough), progress);
     if !anew.may_wear_on() {
         return anew;
     }
@@ -46,26 +41,31 @@ pub(super) fn however_worn(
 /// What is found in records of virgin joints where wear goes on from one to the next, if one cause that wears leaves
 /// noise alone and none does that is asked of joints made anew: several, which may, are less likely.
 fn worn_by_one_cause(
-    (virgin, first): (&Bench, &Fit),
+    virgin: &mut Virgin,
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Option<Investigation> {
-    let train = &virgin.train;
-    if train.records.len() < 2 || !virgin.noise_is_repeated() || !leaves_structure(train, first) {
+    let Virgin { bench, first, .. } = virgin;
+    let asked = bench.train.records.len() > 1
+        && virgin.others.is_empty()
+        && bench.noise_is_repeated()
+        && leaves_structure(&bench.train, first);
+    if !asked {
         return None;
     }
-    let mut bench = virgin.clone();
-    bench.wear_on();
-    let usable = |cause: &dyn Cause| timed || !cause.needs_time();
-    let wears = |cause: &dyn Cause| usable(cause) && cause.effect().lasting() > 0;
-    let noise_alone = first.misfit - structure_left(train, first);
-    if !one_leaves((&bench, first), wears, (Effort::Quick, noise_alone)) {
+    progress("searching the catalogue for causes");
+    let anew = virgin.alone.insert(alone(bench, timed, first));
+    let noise_alone = first.misfit - structure_left(&bench.train, first);
+    let leaves = |misfit| anew.iter().any(|t| t.plausible && t.fit.misfit < misfit);
+    let mut on = bench.clone();
+    on.wear_on();
+    let wears = |cause: &dyn Cause| (timed || !cause.needs_time()) && cause.effect().lasting() > 0;
+    if leaves(noise_alone) || !one_leaves((&on, first), wears, (Effort::Quick, noise_alone)) {
         return None;
     }
     progress(WORN_ON);
-    let on = searched(bench, first.clone(), (timed, enough), progress);
-    let one =
-        on.found.best.effects.len() == 1 && !leaves_structure(&on.bench.train, &on.found.best);
-    let near = on.found.best.misfit + ALARM * on.dispersion();
-    (one && !one_leaves((virgin, first), usable, (Effort::Full, near))).then_some(on)
+    let on = searched(on, (first.clone(), None), (timed, enough), progress);
+    let best = &on.found.best;
+    let one = best.effects.len() == 1 && !leaves_structure(&on.bench.train, best);
+    (one && !leaves(best.misfit + ALARM * on.dispersion())).then_some(on)
 }

@@ -3,7 +3,7 @@
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, Effort, dispersion, implausible, trials_of};
+use super::trials::{ALARM, Effort, Trial, dispersion, implausible, trials_of};
 use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, early, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
@@ -49,11 +49,12 @@ fn suited_without(train: &Problem, best: &Fit, place: usize) -> f64 {
     refit(train, &less, less.effects.clone()).misfit
 }
 
-/// What is found from the baseline of the records as they are weighed; what leaves more than `enough` of every row is not
+/// What is found from the baseline of the records as they are weighed, and every cause alone where that is `known`; what
+/// leaves more than `enough` of every row is not
 /// asked further.
 pub(super) fn searched(
     mut bench: Bench,
-    mut first: Fit,
+    (mut first, mut known): (Fit, Option<Vec<Trial>>),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
@@ -63,10 +64,11 @@ pub(super) fn searched(
             bench.weigh_what_is_left(&quick(&bench, timed, &first));
             first = baseline(&bench.train);
         }
+        known = None;
     }
     let enough = enough / bench.innovation_square();
     progress("searching the catalogue for causes");
-    let found = search(&mut bench, timed, first, enough);
+    let found = search(&mut bench, timed, (first, known), enough);
     bench.weigh_what_is_left(&found.best);
     Investigation { bench, found }
 }
@@ -344,7 +346,7 @@ mod tests {
             };
             let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
             let first = baseline(&bench.train);
-            let found = searched(bench, first, (true, f64::INFINITY), &mut |_| ());
+            let found = searched(bench, (first, None), (true, f64::INFINITY), &mut |_| ());
             let effects = &found.found.best.effects;
             assert_eq!(effects[0].effect.name(), "offset_step");
             assert_eq!(found.tells_of_first_turns_alone(), tells, "{jumps_at} s");

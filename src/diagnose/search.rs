@@ -6,7 +6,7 @@ use super::growing::{grown, least, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
-use super::trials::{Effort, Trial, dispersion};
+use super::trials::{Effort, Trial, dispersion, trials};
 use crate::identify::{Fit, smoothed};
 
 /// Most causes named together.
@@ -47,17 +47,31 @@ impl Found {
 
 /// The set of causes alone, found in a quick pass: what it leaves tells the noise.
 pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
-    grown(bench, timed, baseline, (Effort::Quick, f64::INFINITY)).0
+    let asked = (Effort::Quick, f64::INFINITY);
+    let trials = trials(&bench.train, &bench.scale, timed, baseline, asked);
+    grown(bench, timed, (baseline, &trials), asked)
+}
+
+/// Every cause alone beside the baseline, as a search begins with.
+pub(super) fn alone(bench: &Bench, timed: bool, baseline: &Fit) -> Vec<Trial> {
+    let asked = (Effort::Full, f64::INFINITY);
+    trials(&bench.train, &bench.scale, timed, baseline, asked)
 }
 
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals; where the set leaves more than
 /// `enough` of every row, in noise variances, it is not asked further.
 ///
-/// A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if they suit it
+/// Every cause alone is tried first, unless that is `known`. A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if they suit it
 /// better.
-pub fn search(bench: &mut Bench, timed: bool, baseline: Fit, enough: f64) -> Found {
+pub fn search(
+    bench: &mut Bench,
+    timed: bool,
+    (baseline, known): (Fit, Option<Vec<Trial>>),
+    enough: f64,
+) -> Found {
     let enough = enough * bench.train.rows() as f64;
-    let (best, first) = grown(bench, timed, &baseline, (Effort::Full, enough));
+    let first = known.unwrap_or_else(|| alone(bench, timed, &baseline));
+    let best = grown(bench, timed, (&baseline, &first), (Effort::Full, enough));
     if best.misfit > enough {
         return Found {
             rivals: vec![Vec::new(); best.effects.len()],
@@ -148,7 +162,7 @@ mod tests {
         };
         let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
         let plain = baseline(&bench.train);
-        let asked = |enough: f64| search(&mut bench.clone(), true, plain.clone(), enough);
+        let asked = |enough: f64| search(&mut bench.clone(), true, (plain.clone(), None), enough);
         let (found, beaten) = (asked(f64::INFINITY), asked(0.01));
         assert!(!found.beaten && found.evidence[0] > 0.0, "{found:?}");
         assert!(beaten.beaten && beaten.best.misfit <= found.best.misfit * 1.001);

@@ -68,7 +68,7 @@ pub fn investigated(
     bench.fit_also(news);
     let plain = baseline(&bench.train);
     let asked = (timed, f64::INFINITY);
-    let again = searched(bench, plain, asked, progress).sharpened();
+    let again = searched(bench, (plain, None), asked, progress).sharpened();
     let after = again.left_of_all(&first.bench);
     // Every cause counts for what one must bring.
     let counted = |i: &Investigation, left: f64| left + i.found.best.effects.len() as f64 * ALARM;
