@@ -4,7 +4,7 @@ use super::growing::leaves_structure;
 use super::however_worn::however_worn;
 use super::investigation::Investigation;
 use super::judged_channel::form;
-use super::trials::{ALARM, Effort, trials};
+use super::trials::{ALARM, Effort, one_leaves, trials};
 use crate::identify::{as_driven, baseline, refit_below};
 use crate::record::Record;
 
@@ -61,6 +61,6 @@ impl Investigation {
         }
         let (plain, effort) = (baseline(&train), (Effort::Full, bound));
         let alone = trials(&train, &self.bench.scale, timed, &plain, effort);
-        alone.iter().any(|t| t.plausible && t.fit.misfit < bound)
+        one_leaves(&alone, bound)
     }
 }

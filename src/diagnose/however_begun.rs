@@ -4,9 +4,8 @@ use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
 use super::judged_channel::form;
 use super::prepare::{Bench, prepare};
-use super::trials::{ALARM, Effort, Trial, trials_of};
+use super::trials::{ALARM, Effort, Trial, one_leaves, penalty, trials};
 
-use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
 use crate::identify::{Fit, baseline};
 use crate::record::Record;
@@ -71,6 +70,9 @@ pub(super) fn made_anew(
     // A joint that is taken for virgin against the rule needs a cause, if only for the first cycle.
     let misled = |i: &Investigation| against_rule(i) && !i.is_plain();
     let leading = |all: &[Investigation]| {
+        if all.len() < 2 {
+            return 0;
+        }
         let scale = all
             .iter()
             .map(Investigation::dispersion)
@@ -100,15 +102,17 @@ pub(super) fn made_anew(
         // A past that alone leaves noise is asked first, although it is against the rule: several causes of a virgin
         // joint, which may, are less likely.
         let begun = prepare(form, records, &others[0]);
-        if begun.noise_is_repeated() && !leaves_structure(&begun.train, &baseline(&begun.train)) {
+        let plain = baseline(&begun.train);
+        if begun.noise_is_repeated() && !leaves_structure(&begun.train, &plain) {
             others.remove(0);
             progress(ONCE_MORE);
-            let one = begun_and_searched(begun, (timed, enough), progress);
+            let one = sharply_searched(begun, plain, (timed, enough), progress);
             let sought: usize = one.beginnings().map(Beginning::values).sum();
-            let values = sought as f64 * (one.bench.train.rows().max(3) as f64).ln();
-            let near = one.found.best.misfit + (2.0 * ALARM + values) * one.dispersion();
-            let usable = |cause: &dyn Cause| timed || !cause.needs_time();
-            if one.is_plain() && !one_leaves((&bench, &first), usable, (Effort::Full, near)) {
+            let beyond = 2.0 * ALARM + penalty(&one.bench.train, sought);
+            let near = one.found.best.misfit + beyond * one.dispersion();
+            let asked = (Effort::Full, near);
+            let singles = || trials(&bench.train, &bench.scale, timed, &first, asked);
+            if one.is_plain() && !one_leaves(&singles(), near) {
                 return one;
             }
             all.push(one);
@@ -189,15 +193,4 @@ fn least_enough(all: &[Investigation]) -> f64 {
     all.iter()
         .map(Investigation::enough)
         .fold(f64::INFINITY, f64::min)
-}
-
-/// True where one of the causes that are `usable` leaves less than a misfit beside the baseline.
-pub(super) fn one_leaves(
-    (bench, first): (&Bench, &Fit),
-    usable: impl Fn(&dyn Cause) -> bool,
-    asked: (Effort, f64),
-) -> bool {
-    let (_, misfit) = asked;
-    let tried = trials_of(usable, &bench.train, &bench.scale, first, asked);
-    tried.iter().any(|t| t.plausible && t.fit.misfit < misfit)
 }

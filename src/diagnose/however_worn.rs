@@ -1,10 +1,10 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
 use super::growing::{leaves_structure, structure_left};
-use super::however_begun::{Virgin, made_anew, one_leaves, sharply_searched};
-use super::investigation::{Investigation, searched};
+use super::however_begun::{Virgin, made_anew, sharply_searched};
+use super::investigation::{Investigation, SEARCHING, searched};
 use super::search::alone;
-use super::trials::{ALARM, Effort};
+use super::trials::{ALARM, Effort, one_leaves, trials_of};
 
 use crate::causes::Cause;
 use crate::record::Record;
@@ -53,19 +53,21 @@ fn worn_by_one_cause(
     if !asked {
         return None;
     }
-    progress("searching the catalogue for causes");
+    progress(SEARCHING);
     let anew = virgin.alone.insert(alone(bench, timed, first));
     let noise_alone = first.misfit - structure_left(&bench.train, first);
-    let leaves = |misfit| anew.iter().any(|t| t.plausible && t.fit.misfit < misfit);
     let mut on = bench.clone();
     on.wear_on();
     let wears = |cause: &dyn Cause| (timed || !cause.needs_time()) && cause.effect().lasting() > 0;
-    if leaves(noise_alone) || !one_leaves((&on, first), wears, (Effort::Quick, noise_alone)) {
+    let quick = (Effort::Quick, noise_alone);
+    let worn = || trials_of(wears, &on.train, &on.scale, first, quick);
+    if one_leaves(anew, noise_alone) || !one_leaves(&worn(), noise_alone) {
         return None;
     }
     progress(WORN_ON);
     let on = searched(on, (first.clone(), None), (timed, enough), progress);
     let best = &on.found.best;
     let one = best.effects.len() == 1 && !leaves_structure(&on.bench.train, best);
-    (one && !leaves(best.misfit + ALARM * on.dispersion())).then_some(on)
+    let near = best.misfit + ALARM * on.dispersion();
+    (one && !one_leaves(anew, near)).then_some(on)
 }

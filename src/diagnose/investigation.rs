@@ -3,7 +3,7 @@
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, Effort, Trial, dispersion, implausible, trials_of};
+use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trials_of};
 use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, early, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
@@ -21,6 +21,9 @@ const FAR: f64 = 4.0;
 
 /// Part of the noise's variance that counts as left at least.
 const SLIGHT: f64 = 0.1;
+
+/// Said where every cause is tried.
+pub(super) const SEARCHING: &str = "searching the catalogue for causes";
 
 /// Records, and what was found in them.
 pub struct Investigation {
@@ -67,7 +70,7 @@ pub(super) fn searched(
         known = None;
     }
     let enough = enough / bench.innovation_square();
-    progress("searching the catalogue for causes");
+    progress(SEARCHING);
     let found = search(&mut bench, timed, (first, known), enough);
     bench.weigh_what_is_left(&found.best);
     Investigation { bench, found }
@@ -308,14 +311,14 @@ impl Investigation {
     pub(super) fn unlikeliness(&self, dispersion: f64) -> f64 {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
-        let weights = train.records.iter().flat_map(|r| &r.weight);
-        let innovations: f64 = weights.filter(|w| **w > 0.0).map(|w| -2.0 * w.ln()).sum();
         let causes = &self.found.best.effects;
         let of_causes: usize = causes.iter().map(Acting::free).sum();
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
-        let values = (of_causes + of_beginnings + usize::from(train.wears_on)) as f64;
-        let chosen = values * (train.rows().max(3) as f64).ln();
-        innovations + misfit / dispersion + chosen + causes.len() as f64 * ALARM
+        let chosen = penalty(
+            train,
+            of_causes + of_beginnings + usize::from(train.wears_on),
+        );
+        self.bench.innovations() + misfit / dispersion + chosen + causes.len() as f64 * ALARM
     }
 }
 

@@ -138,15 +138,16 @@ impl Bench {
             .any(|n| !n.repeated && n.autoregression > SLOW)
     }
 
+    /// Sum of the logarithms of the noise's innovations squared, over the weighted samples.
+    pub fn innovations(&self) -> f64 {
+        let weights = self.train.records.iter().flat_map(|r| &r.weight);
+        let weighted = weights.filter(|w| **w > 0.0);
+        weighted.map(|w| -2.0 * w.ln()).sum()
+    }
+
     /// Square of the noise's innovations, their geometric mean over the weighted samples, in units of the judged channel.
     pub fn innovation_square(&self) -> f64 {
-        let weights = self.train.records.iter().flat_map(|r| &r.weight);
-        let (mut sum, mut count) = (0.0, 0.0);
-        for weight in weights.filter(|w| **w > 0.0) {
-            sum -= 2.0 * weight.ln();
-            count += 1.0;
-        }
-        (sum / f64::max(count, 1.0)).exp()
+        (self.innovations() / self.train.rows().max(1) as f64).exp()
     }
 
     /// True where a record shows less noise than its channel resolves: what laws are wrong by is seen beside it.

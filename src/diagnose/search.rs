@@ -61,8 +61,8 @@ pub(super) fn alone(bench: &Bench, timed: bool, baseline: &Fit) -> Vec<Trial> {
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals; where the set leaves more than
 /// `enough` of every row, in noise variances, it is not asked further.
 ///
-/// Every cause alone is tried first, unless that is `known`. A mass that moves with the joint is marched in shorter steps, or more turns, from where it was found, if they suit it
-/// better.
+/// Every cause alone is tried first, unless that is `known`. A mass that moves with the joint is marched in shorter
+/// steps, or more turns, from where it was found, if they suit it better.
 pub fn search(
     bench: &mut Bench,
     timed: bool,

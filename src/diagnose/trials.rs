@@ -250,6 +250,11 @@ fn sticks(acting: &Acting) -> bool {
     acting.effect.sticking(&acting.values) > 0.0
 }
 
+/// True where one of the trials leaves less than a misfit, with values of its own.
+pub(super) fn one_leaves(trials: &[Trial], misfit: f64) -> bool {
+    trials.iter().any(|t| t.plausible && t.fit.misfit < misfit)
+}
+
 /// χ² per degree of freedom, at least one: differences of misfit count only as far as the best
 /// model reaches the noise.
 pub fn dispersion(problem: &Problem, fit: &Fit) -> f64 {
