@@ -37,7 +37,8 @@ pub(super) fn by_form<'a>(scores: &[&'a Score]) -> Vec<Vec<&'a Score>> {
 const FIRST: usize = 2;
 
 /// Fits to begin with, the set's own with one of the scored shapes each, and true where they have a prospect of a
-/// misfit below `bound`; of more than `most` those that leave least after their first steps, from where these led.
+/// misfit below `bound`; of more than `most` those that leave least after their first steps, from where these led. What
+/// the answer follows in jumps, slopes lead nowhere: only strides tell its prospect.
 pub(super) fn starts(
     problem: &Problem,
     current: &Fit,
@@ -64,7 +65,8 @@ pub(super) fn starts(
     let onward = led.into_par_iter().map(|led| {
         let next = glanced(&led, 1);
         let prospect = next.misfit - PROSPECT * (led.misfit - next.misfit);
-        match prospect < bound {
+        let jumps = next.effects.last().is_some_and(jumps);
+        match prospect < bound || jumps {
             true => {
                 let misfit = current.misfit;
                 (Fit { misfit, ..next }, true)
@@ -73,6 +75,12 @@ pub(super) fn starts(
         }
     });
     onward.collect()
+}
+
+/// True where the answer follows one of the values in small jumps.
+fn jumps(acting: &Acting) -> bool {
+    let law = acting.effect;
+    (0..law.parameters().len()).any(|p| law.jumps_with(p))
 }
 
 /// Causes that were tried beside a set, each in its likeliest form that acts at another place than the one that did
@@ -150,6 +158,18 @@ mod tests {
             none.iter()
                 .all(|(fit, _)| fit.misfit < 0.5 * current.misfit)
         );
+        // What is followed in jumps leads on all the same.
+        let effect = find("fixture_inertia").unwrap().effect();
+        let masses = [1.0, 2.0, 3.0].map(|mass| Score {
+            acting: Acting {
+                effect,
+                values: vec![0.0, mass],
+            },
+            fall: 1.0,
+        });
+        let shapes: Vec<&Score> = masses.iter().collect();
+        let jumping = starts(&problem, &current, &shapes, (2, -1e3 * current.misfit));
+        assert!(jumping.len() == 2 && jumping.iter().all(|(_, leads_on)| *leads_on));
     }
 
     /// Two shapes of one form, then the first of each other.

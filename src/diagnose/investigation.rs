@@ -5,7 +5,7 @@ use super::prepare::Bench;
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trials_of};
 use crate::causes::Cause;
-use crate::identify::beginning::{Beginning, early, past, sharpened};
+use crate::identify::beginning::{Beginning, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
 
@@ -44,12 +44,6 @@ fn left(train: &Problem, fit: &Fit, (k, beginning): (usize, &Beginning)) -> f64 
     };
     one.records[k - before].beginning.clone_from(beginning);
     one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
-}
-
-/// What is left without one of the effects, the others refitted.
-fn suited_without(train: &Problem, best: &Fit, place: usize) -> f64 {
-    let less = without(train, best, place);
-    refit(train, &less, less.effects.clone()).misfit
 }
 
 /// What is found from the baseline of the records as they are weighed, and every cause alone where that is `known`; what
@@ -116,22 +110,6 @@ impl Investigation {
 
     pub(super) fn is_virgin(&self) -> bool {
         self.beginnings().all(Beginning::is_virgin)
-    }
-
-    /// True where a cause brings nothing behind the first turns: it may do the work of loads before the record, which
-    /// are forgotten by then.
-    pub(super) fn tells_of_first_turns_alone(&self) -> bool {
-        let mut behind = self.bench.clone();
-        for (k, unsure) in behind.unsure.iter_mut().enumerate() {
-            *unsure = early(self.bench.train.channels(k).0);
-        }
-        behind.weigh(self.bench.noise.clone());
-        let train = &behind.train;
-        let effects = &self.found.best.effects;
-        let best = refit(train, &self.found.best, effects.clone());
-        let margin = ALARM * dispersion(train, &best);
-        let brings = |place| suited_without(train, &best, place) - best.misfit;
-        (0..effects.len()).any(|place| brings(place) < margin)
     }
 
     /// True where other beginnings leave less beside the causes that were found, or no more beside fewer, until
@@ -319,40 +297,5 @@ impl Investigation {
             of_causes + of_beginnings + usize::from(train.wears_on),
         );
         self.bench.innovations() + misfit / dispersion + chosen + causes.len() as f64 * ALARM
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::diagnose::prepare::prepare;
-    use crate::identify::Form;
-    use crate::record::Record;
-    use crate::record::noise::tests::drawn;
-
-    #[test]
-    fn a_jump_within_the_first_turns_may_be_a_past_and_one_behind_them_is_none() {
-        for (jumps_at, tells) in [(0.5, true), (9.0, false)] {
-            let mut noise = drawn(20261127);
-            let time: Vec<f64> = (0..2000).map(|i| 0.01 * f64::from(i)).collect();
-            let force: Vec<f64> = time.iter().map(|t| 80.0 * (5.0 * t).sin()).collect();
-            let jump = |t: f64| if t > jumps_at { 0.5 } else { 0.0 };
-            let both = time.iter().zip(&force);
-            let record = Record {
-                name: "jump".to_string(),
-                displacement: both
-                    .map(|(t, force)| 1e-8 * (force + jump(*t)) + 1e-9 * noise())
-                    .collect(),
-                force,
-                time: Some(time),
-                ..Record::default()
-            };
-            let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
-            let first = baseline(&bench.train);
-            let found = searched(bench, (first, None), (true, f64::INFINITY), &mut |_| ());
-            let effects = &found.found.best.effects;
-            assert_eq!(effects[0].effect.name(), "offset_step");
-            assert_eq!(found.tells_of_first_turns_alone(), tells, "{jumps_at} s");
-        }
     }
 }

@@ -9,6 +9,7 @@ mod driven;
 pub mod experiment;
 pub mod findings;
 mod finely;
+mod first_turns;
 mod forms;
 mod full_slip;
 pub mod gain;

@@ -51,6 +51,7 @@ pub fn investigated(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let first = however_driven(records, timed, progress);
+    let first = first.behind_unknown_pasts(timed, progress);
     let news = news(&first.bench, &first.found.best);
     if !news.end && !news.middle {
         return first;
