@@ -170,6 +170,11 @@ impl Cause for FixtureInertia {
     fn needs_time(&self) -> bool {
         true
     }
+    /// A mass that rings and one that does not.
+    fn otherwise(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let one = (values[0] == 0.0) != (values[1] == 0.0);
+        one.then(|| vec![values[1], values[0]])
+    }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let acceleration = scale.velocity * scale.velocity / scale.displacement;
         let whole = scale.force / acceleration;

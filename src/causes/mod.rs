@@ -124,6 +124,10 @@ pub trait Cause: Effect {
     fn begun_anew(&self, _values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
         None
     }
+    /// The same size in the other form of a law that has two of its own kind.
+    fn otherwise(&self, _values: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
     /// False where the fitted values are those of another cause: two laws may be the same formula
     /// in different ranges.
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {
