@@ -108,6 +108,9 @@ impl Effect for SensorNonlinearity {
             values[4] != 0.0 || values[5] != 0.0,
         )
     }
+    fn follows_reading(&self) -> bool {
+        true
+    }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
         let values = &values[chain::first(place, 4)..];
         let error = |x: &f64| {

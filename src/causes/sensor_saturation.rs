@@ -150,6 +150,9 @@ impl Effect for SensorSaturation {
     fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
         chain::places(values[0] != 0.0, values[4] != 0.0)
     }
+    fn follows_reading(&self) -> bool {
+        true
+    }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {
         let values = &values[chain::first(place, 4)..];
         let [positive, negative] = [values[1], values[2]];

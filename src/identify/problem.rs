@@ -5,7 +5,7 @@ use super::march::{Cells, March, Step, Wear, added};
 use super::operators::{Form, Operators};
 use super::prepared::Prepared;
 use super::turns::{Resonance, Turns};
-use super::undone::{corrected, true_input};
+use super::undone::{corrected, true_input, true_turns};
 use super::walk::walk;
 use super::weighing::whiten;
 use crate::joint::effect::{Acting, Place, Trajectory};
@@ -158,6 +158,8 @@ impl Problem {
             &correcting,
             &mut truth,
         );
+        let form = self.operators.form;
+        let turned = true_turns(form, &record.beginning.turned, &correcting);
         let mut worn;
         let mut turns = Turns::new(if in_turns.is_empty() { 1 } else { self.turns });
         let as_read = (!turns.end()).then(|| (input.clone(), between.clone()));
@@ -169,15 +171,20 @@ impl Problem {
                 (cells, self.hauling),
             )
             .worn(wear, record.beginning.goes_on);
-            walk(record, (&input, &between), &mut march, |i, march, step| {
-                if let Some(i) = i {
-                    truth.force[i] = step.force;
-                    truth.displacement[i] = step.displacement;
-                }
-                if turns.end() {
-                    each(i, march, step);
-                }
-            });
+            walk(
+                record,
+                (&turned, &input, &between),
+                &mut march,
+                |i, march, step| {
+                    if let Some(i) = i {
+                        truth.force[i] = step.force;
+                        truth.displacement[i] = step.displacement;
+                    }
+                    if turns.end() {
+                        each(i, march, step);
+                    }
+                },
+            );
             worn = march.wear();
             let (false, Some((read, turned))) = (turns.end(), &as_read) else {
                 break;

@@ -50,6 +50,24 @@ pub(super) fn true_input(
     read
 }
 
+/// Readings at which the load turned before a record, as the joint had them: what a sensor adds to a reading, whenever that
+/// was, it has added to these.
+pub(super) fn true_turns(form: Form, readings: &[f64], correcting: &[Acting]) -> Vec<f64> {
+    let at_once = correcting.iter().filter(|a| a.effect.follows_reading());
+    let at_once: Vec<Acting> = at_once.cloned().collect();
+    if at_once.is_empty() {
+        return readings.to_vec();
+    }
+    let mut truth = Trajectory {
+        time: vec![0.0; readings.len()],
+        force: readings.to_vec(),
+        displacement: readings.to_vec(),
+        begins: 0.0,
+    };
+    let added = undone(form, &at_once, &mut truth, readings);
+    readings.iter().zip(&added).map(|(r, a)| r - a).collect()
+}
+
 /// The channel that drives.
 fn driving(form: Form, truth: &mut Trajectory) -> &mut Vec<f64> {
     match form {
@@ -106,7 +124,49 @@ pub(super) fn corrected(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::joint::effect::{Effect, Place};
+    use crate::joint::parameters::Parameter;
     use crate::record::peaks::between;
+
+    /// A load cell whose curve is bent, or one that drifts with what it went through.
+    struct Cell {
+        bent: bool,
+    }
+
+    impl Effect for Cell {
+        fn name(&self) -> &'static str {
+            "cell"
+        }
+        fn place(&self) -> Place {
+            Place::ForceChannel
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn follows_reading(&self) -> bool {
+            self.bent
+        }
+        fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
+            truth.force.iter().map(|f| values[0] * f * f).collect()
+        }
+    }
+
+    #[test]
+    fn turns_before_a_record_are_read_by_the_same_sensor() {
+        static BENT: Cell = Cell { bent: true };
+        static DRIFTS: Cell = Cell { bent: false };
+        let acting = |effect: &'static Cell| Acting {
+            effect,
+            values: vec![0.02],
+        };
+        let turned = [3.0_f64, -2.0, 1.0];
+        let read = turned.map(|f| f + 0.02 * f * f);
+        let found = true_turns(Form::Play, &read, &[acting(&BENT), acting(&DRIFTS)]);
+        let off = found.iter().zip(turned).map(|(f, t)| (f - t).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-6, "{found:?}");
+        // What hangs on time did something else then.
+        assert_eq!(true_turns(Form::Play, &read, &[acting(&DRIFTS)]), read);
+    }
 
     /// A sine with hum of a hundredth of it, sampled a hundred times a cycle: without the hum its tips are where
     /// they were; moved with their neighbours they are off by a good part of it.

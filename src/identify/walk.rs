@@ -10,11 +10,11 @@ use crate::record::peaks::Between;
 /// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
 const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
 
-/// Takes every step of a record under the given input and what it does between samples; `each` sees them all, with the
+/// Takes every step of a record under the given input and what it does between samples, behind the turns before it; `each` sees them all, with the
 /// sample that a step ends at, or `None` where it ends between two.
 pub(super) fn walk(
     record: &Prepared,
-    (input, between): (&[f64], &Between),
+    (turned, input, between): (&[f64], &[f64], &Between),
     march: &mut March,
     mut each: impl FnMut(Option<usize>, &March, Step),
 ) {
@@ -22,7 +22,6 @@ pub(super) fn walk(
     let mut kinks = between.kinks.iter().peekable();
     let mut since_kink = usize::MAX;
     let mut from = (0.0, 0.0);
-    let turned = &record.beginning.turned;
     if !turned.is_empty() {
         march.precede(record.time.first().copied().unwrap_or(0.0), turned);
     }

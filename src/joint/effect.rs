@@ -226,6 +226,10 @@ pub trait Effect: Send + Sync {
     fn follows_motion(&self) -> bool {
         false
     }
+    /// Either channel: true where what it adds follows the reading alone, whenever that was.
+    fn follows_reading(&self) -> bool {
+        false
+    }
     /// [`Place::ForceChannel`], [`Place::DisplacementChannel`]: what the chain *adds* to the true
     /// channel at this place, one number per sample (measured = true + added).
     fn channel(&self, _values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
