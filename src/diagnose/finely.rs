@@ -187,4 +187,49 @@ mod tests {
         let off = (calm.effects[0].values[1] / mass - 1.0).abs();
         assert!(off < 0.15, "{calm:?}");
     }
+
+    /// A mass on a damped spring (4 % of critical) that bursts of force set ringing, sixteen samples to a period, marched
+    /// here in a hundred steps a sample: a march in a few damps it otherwise.
+    #[test]
+    fn the_size_of_a_mass_that_rings_is_told() {
+        let (stiffness, mass, step) = (1.6e8_f64, 350.0, 5.8e-4);
+        let (natural, cycle) = ((stiffness / mass).sqrt(), std::f64::consts::TAU / 100.0);
+        let damping = 0.08 * natural * mass;
+        let force = |t: f64| match t % 0.15 < cycle {
+            true => 3000.0 * (100.0 * (t % 0.15)).sin(),
+            false => 0.0,
+        };
+        let mut noise = drawn(20261128);
+        let (mut u, mut v) = (0.0_f64, 0.0_f64);
+        let (mut displacement, parts) = (Vec::new(), 100);
+        for i in 0..4000 * parts {
+            if i % parts == 0 {
+                displacement.push(u + 5e-7 * noise());
+            }
+            let h = step / f64::from(parts);
+            v += h * (force(h * f64::from(i)) - damping * v - stiffness * u) / mass;
+            u += h * v;
+        }
+        let time: Vec<f64> = (0..4000).map(|i| step * f64::from(i)).collect();
+        let record = Record {
+            name: "rings".to_string(),
+            displacement,
+            force: time.iter().map(|t| force(*t)).collect(),
+            time: Some(time),
+            ..Record::default()
+        };
+        let mut bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        let begun = Fit {
+            effects: vec![Acting {
+                effect: find("fixture_inertia").unwrap().effect(),
+                values: vec![340.0, 0.0],
+            }],
+            misfit: f64::INFINITY,
+            ..baseline(&bench.train)
+        };
+        let rings = refit(&bench.train, &begun, begun.effects.clone());
+        let found = finely(&mut bench, rings);
+        let size: f64 = found.effects[0].values.iter().sum();
+        assert!((size / mass - 1.0).abs() < 0.03, "{:?}", found.effects);
+    }
 }
