@@ -1,4 +1,4 @@
-//! A mass that was found, marched in shorter steps or with more turns.
+//! A mass that was found, marched in shorter steps or with more turns, or in its other form.
 
 use super::places::scatter;
 use super::prepare::Bench;
@@ -29,8 +29,13 @@ pub(super) fn finely(bench: &mut Bench, best: Fit) -> Fit {
         return best;
     }
     let coarse = (bench.train.hauling, bench.train.turns);
-    let found = capped(bench, &best);
-    let one = least(bench, best, &[(coarse, Some(found)), (HAULING, None)]);
+    let found = Fitted {
+        left: capped(bench, &best),
+        fineness: coarse,
+        fit: best,
+    };
+    let finer = Fitted::at(bench, HAULING, &found.fit);
+    let one = found.or_nearer(finer);
     bench.haul(one.fineness);
     let other: Vec<Acting> = one.fit.effects.iter().map(otherwise).collect();
     if other == one.fit.effects || bench.train.operators.form == Form::Stop {
@@ -41,7 +46,8 @@ pub(super) fn finely(bench: &mut Bench, best: Fit) -> Fit {
         misfit: f64::INFINITY,
         ..one.fit.clone()
     };
-    let other = least(bench, begun, &[(coarse, None), (HAULING, None)]);
+    let finer = Fitted::at(bench, HAULING, &begun);
+    let other = Fitted::at(bench, coarse, &begun).or_nearer(finer);
     let rings = one.fit.effects.iter().any(|a| bench.train.hauls(a));
     let (ringing, calm) = if rings { (one, other) } else { (other, one) };
     let rows = bench.whole.rows() as f64;
@@ -65,29 +71,22 @@ struct Fitted {
     fit: Fit,
 }
 
-/// The fit refitted at the fineness, of those given, at which least is left; as it is where what it leaves is told beside.
-fn least(bench: &mut Bench, fit: Fit, all: &[(Fineness, Option<f64>)]) -> Fitted {
-    let mut best = Fitted {
-        left: f64::INFINITY,
-        fineness: HAULING,
-        fit: fit.clone(),
-    };
-    for &(fineness, told) in all {
+impl Fitted {
+    /// A fit refitted at a fineness, which the bench has from now on.
+    fn at(bench: &mut Bench, fineness: Fineness, fit: &Fit) -> Fitted {
         bench.haul(fineness);
-        let own = match told {
-            Some(_) => fit.clone(),
-            None => refit(&bench.train, &fit, fit.effects.clone()),
-        };
-        let left = told.unwrap_or_else(|| capped(bench, &own));
-        if left < best.left {
-            best = Fitted {
-                left,
-                fineness,
-                fit: own,
-            };
+        let fit = refit(&bench.train, fit, fit.effects.clone());
+        Fitted {
+            left: capped(bench, &fit),
+            fineness,
+            fit,
         }
     }
-    best
+
+    /// This, or the other where that leaves less.
+    fn or_nearer(self, other: Fitted) -> Fitted {
+        if other.left < self.left { other } else { self }
+    }
 }
 
 /// The effect with the same size in the other form of its cause.
@@ -152,6 +151,14 @@ mod tests {
         assert!(jumped > calm && jumped < calm + most, "{calm}, {jumped}");
     }
 
+    /// A mass that rings on the joint.
+    fn ringing(mass: f64) -> Acting {
+        Acting {
+            effect: find("fixture_inertia").unwrap().effect(),
+            values: vec![mass, 0.0],
+        }
+    }
+
     /// A spring that moves in bursts and breaks off between samples; its cell reads the mean inertia of a sample.
     #[test]
     fn a_mass_is_not_fitted_to_ringing_where_its_load_breaks_off() {
@@ -176,12 +183,8 @@ mod tests {
             ..Record::default()
         };
         let mut bench = prepare(Form::Play, &[record], &[Beginning::default()]);
-        let acting = |values: [f64; 2]| Acting {
-            effect: find("fixture_inertia").unwrap().effect(),
-            values: values.to_vec(),
-        };
         let plain = baseline(&bench.train);
-        let rings = refit(&bench.train, &plain, vec![acting([250.0, 0.0])]);
+        let rings = refit(&bench.train, &plain, vec![ringing(250.0)]);
         let calm = finely(&mut bench, rings);
         // A sample's mean jumps where the motion breaks off; the difference of displacements reaches over two.
         let off = (calm.effects[0].values[1] / mass - 1.0).abs();
@@ -220,10 +223,7 @@ mod tests {
         };
         let mut bench = prepare(Form::Play, &[record], &[Beginning::default()]);
         let begun = Fit {
-            effects: vec![Acting {
-                effect: find("fixture_inertia").unwrap().effect(),
-                values: vec![340.0, 0.0],
-            }],
+            effects: vec![ringing(340.0)],
             misfit: f64::INFINITY,
             ..baseline(&bench.train)
         };

@@ -13,11 +13,7 @@ impl Investigation {
     /// True where a cause brings nothing behind the first turns: it may do the work of loads before the record, which
     /// are forgotten by then.
     pub(super) fn tells_of_first_turns_alone(&self) -> bool {
-        let mut behind = self.bench.clone();
-        for (k, unsure) in behind.unsure.iter_mut().enumerate() {
-            *unsure = early(self.bench.train.channels(k).0);
-        }
-        behind.weigh(self.bench.noise.clone());
+        let behind = behind(&self.bench, |_, _| true);
         let train = &behind.train;
         let effects = &self.found.best.effects;
         let best = refit(train, &self.found.best, effects.clone());
@@ -33,8 +29,10 @@ impl Investigation {
         timed: bool,
         progress: &mut impl FnMut(&str),
     ) -> Investigation {
-        let caused = !self.found.best.effects.is_empty();
-        let Some(behind) = behind(&self.bench).filter(|_| caused) else {
+        if self.found.best.effects.is_empty() {
+            return self;
+        }
+        let Some(behind) = behind_unknown(&self.bench) else {
             return self;
         };
         progress("once more: what records went through that do not begin at zero is not known");
@@ -43,23 +41,31 @@ impl Investigation {
     }
 }
 
-/// The bench with the first turns of every record that does not begin at zero as no witnesses, where enough is left
-/// behind them; `None` where there is no such record.
-fn behind(bench: &Bench) -> Option<Bench> {
+/// The bench with the first turns of every record that is wanted, by its place and how many samples they are, as no
+/// witnesses.
+fn behind(bench: &Bench, wanted: impl Fn(usize, usize) -> bool) -> Bench {
     let mut behind = bench.clone();
     for (k, unsure) in behind.unsure.iter_mut().enumerate() {
-        let (input, _) = bench.train.channels(k);
-        let (early, most) = (early(input), (1.0 - LEFT) * input.len() as f64);
-        let begins = &bench.train.records[k].beginning;
-        let unknown = begins.turned.is_empty() && !begins.goes_on && !at_zero(input);
-        if unknown && early as f64 <= most {
+        let early = early(bench.train.channels(k).0);
+        if wanted(k, early) {
             *unsure = early;
         }
     }
-    (behind.unsure != bench.unsure).then(|| {
-        behind.weigh(bench.noise.clone());
-        behind
-    })
+    behind.weigh(bench.noise.clone());
+    behind
+}
+
+/// The same of every record that does not begin at zero and is without a past, where enough is left behind them; `None`
+/// where there is no such record.
+fn behind_unknown(bench: &Bench) -> Option<Bench> {
+    let unknown = |k: usize, early: usize| {
+        let (input, _) = bench.train.channels(k);
+        let begins = &bench.train.records[k].beginning;
+        let most = (1.0 - LEFT) * input.len() as f64;
+        begins.turned.is_empty() && !begins.goes_on && !at_zero(input) && early as f64 <= most
+    };
+    let behind = behind(bench, unknown);
+    (behind.unsure != bench.unsure).then_some(behind)
 }
 
 /// What is left without one of the effects, the others refitted.
@@ -94,9 +100,9 @@ mod tests {
 
     #[test]
     fn a_record_that_does_not_begin_at_zero_is_no_witness_before_it_has_turned_twice() {
-        assert!(behind(&of_sine(0.0)).is_none());
+        assert!(behind_unknown(&of_sine(0.0)).is_none());
         // From half the way up: the valley comes 5/6 - 1/4 of a period of two seconds later, and its sample.
-        let begun = behind(&of_sine(1.0 / 12.0)).unwrap();
+        let begun = behind_unknown(&of_sine(1.0 / 12.0)).unwrap();
         let weight = &begun.train.records[0].weight;
         let first = weight.iter().position(|w| *w > 0.0).unwrap();
         assert_eq!(first, 134);

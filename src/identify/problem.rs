@@ -158,8 +158,7 @@ impl Problem {
             &correcting,
             &mut truth,
         );
-        let form = self.operators.form;
-        let turned = true_turns(form, &record.beginning.turned, &correcting);
+        let turned = true_turns(self.operators.form, &record.beginning.turned, &correcting);
         let mut worn;
         let mut turns = Turns::new(if in_turns.is_empty() { 1 } else { self.turns });
         let as_read = (!turns.end()).then(|| (input.clone(), between.clone()));
@@ -186,7 +185,7 @@ impl Problem {
                 },
             );
             worn = march.wear();
-            let (false, Some((read, turned))) = (turns.end(), &as_read) else {
+            let (false, Some((read, found))) = (turns.end(), &as_read) else {
                 break;
             };
             let mut added = vec![0.0; record.time.len()];
@@ -197,7 +196,7 @@ impl Problem {
             let masses = in_turns.iter().filter_map(|a| a.effect.driven(&a.values));
             let resonance = Resonance::of(masses.sum(), &truth);
             let correction = turns.take(&added, resonance);
-            (input, between) = corrected(&record.time, (read, turned), correction);
+            (input, between) = corrected(&record.time, (read, found), correction);
         }
         let judged = self.judged(&truth, effects);
         (Prediction { judged, truth }, worn)

@@ -10,8 +10,8 @@ use crate::record::peaks::Between;
 /// Parts of the steps behind a kink where something carries rates on: there it answers within steps.
 const BEHIND_KINK: [u32; 4] = [8, 4, 2, 2];
 
-/// Takes every step of a record under the given input and what it does between samples, behind the turns before it; `each` sees them all, with the
-/// sample that a step ends at, or `None` where it ends between two.
+/// Takes every step of a record under the given input and what it does between samples, behind the turns before it;
+/// `each` sees them all, with the sample that a step ends at, or `None` where it ends between two.
 pub(super) fn walk(
     record: &Prepared,
     (turned, input, between): (&[f64], &[f64], &Between),
