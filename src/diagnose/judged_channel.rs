@@ -1,5 +1,6 @@
 //! Which channel drives and which is judged: the form of the problem.
 
+use super::full_slip::full_slip;
 use crate::identify::Form;
 use crate::record::Record;
 use crate::record::calm::fastest;
@@ -14,12 +15,10 @@ use std::cmp::Ordering;
 /// ill-conditioned (compliance grows without bound at full slip).
 const DEEP_SLIP: f64 = 8.0;
 
-/// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply
-/// that displacement has to be.
+/// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply that displacement
+/// has to be. Short of full slip, where every force still has its displacement, force drives if it is plainly the one
+/// with less noise.
 pub fn form(records: &[Record]) -> Form {
-    if records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP) {
-        return Form::Stop;
-    }
     let (mut force, mut displacement) = (0.0, 0.0);
     for record in records {
         let noise = |channel: &[f64]| {
@@ -39,6 +38,11 @@ pub fn form(records: &[Record]) -> Form {
         };
         force += noise(&record.force);
         displacement += noise(&record.displacement);
+    }
+    let deep = records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP);
+    let force_drives = displacement > ALIKE * force && full_slip(records).is_none();
+    if deep && !force_drives {
+        return Form::Stop;
     }
     let alike = (force / displacement).max(displacement / force) < ALIKE;
     if alike && let Some(drives) = commanded(records) {
@@ -97,4 +101,58 @@ pub fn compliance_ratio(record: &Record) -> f64 {
     slopes.sort_by(f64::total_cmp);
     let stiff = slopes[slopes.len() / 10];
     displacement / force / stiff
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::noise::tests::white;
+    use std::f64::consts::TAU;
+
+    /// Displacement `F/(1 − |F|)` under growing cycles of force up to a share `reach` of 1 N, the force of full slip, with
+    /// noise of either channel as a share of its peak.
+    fn loaded(reach: f64, (of_force, of_displacement): (f64, f64)) -> Record {
+        let (force_noise, noise) = (white(2000), white(4000).split_off(2000));
+        let mut record = Record::default();
+        for i in 0..2000 {
+            let t = f64::from(i) / 2000.0;
+            let force = reach * (0.4 + t).min(1.0) * (TAU * 5.0 * t).sin();
+            let displacement = force / (1.0 - force.abs());
+            let range = reach / (1.0 - reach);
+            record
+                .force
+                .push(force + of_force * reach * force_noise[i as usize]);
+            let noise = of_displacement * range * noise[i as usize];
+            record.displacement.push(displacement + noise);
+        }
+        record
+    }
+
+    #[test]
+    fn a_quiet_force_drives_short_of_full_slip_however_deep() {
+        let deep = loaded(0.9, (1e-6, 1e-3));
+        assert!(compliance_ratio(&deep) > DEEP_SLIP);
+        assert_eq!(form(&[deep]), Form::Play);
+        // Where noise does not plainly tell, or tells the other, a deeply slipping joint is driven by displacement.
+        for noise in [(1e-3, 1e-3), (2e-3, 1e-3), (1e-3, 1e-6)] {
+            assert_eq!(form(&[loaded(0.9, noise)]), Form::Stop, "{noise:?}");
+        }
+        let shallow = loaded(0.3, (1e-3, 2e-3));
+        assert!(compliance_ratio(&shallow) < DEEP_SLIP);
+        assert_eq!(form(&[shallow]), Form::Play);
+    }
+
+    /// A force that stays while the displacement goes on has no displacement of its own, however quiet it is.
+    #[test]
+    fn displacement_drives_where_the_joint_slipped_in_full() {
+        let noise = white(2000);
+        let mut record = Record::default();
+        for (i, noise) in noise.iter().enumerate() {
+            let displacement = 20.0 * (TAU * i as f64 / 500.0).sin();
+            record.force.push(displacement.clamp(-1.0, 1.0));
+            record.displacement.push(displacement + 1e-3 * noise);
+        }
+        assert!(full_slip(std::slice::from_ref(&record)).is_some());
+        assert_eq!(form(&[record]), Form::Stop);
+    }
 }
