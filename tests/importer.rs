@@ -296,7 +296,7 @@ fn a_record_is_compared_and_its_step_is_judged() {
 #[test]
 fn a_step_is_judged_by_what_causes_lose_at_it_too() {
     let causes = r#"[{"name": "normal_load_variation",
-        "parameters": {"sensitivity": 5e-4, "displacement_weight": 0.0}}]"#;
+        "parameters": {"force_sensitivity": 5e-4}}]"#;
     // A triangle of two seconds: its turning values are samples, and parabolas through them add none.
     let input = |time: f64| {
         let way = (time + 0.5).rem_euclid(2.0);

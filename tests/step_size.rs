@@ -78,7 +78,7 @@ fn errors_of_causes_that_follow_the_joint_fall_with_the_step() {
     let cases = [
         acting("viscous_damping", &[2e4]),
         acting("quadratic_damping", &[1e8]),
-        acting("normal_load_variation", &[1e-3, 0.0, 0.0, 0.0]),
+        acting("normal_load_variation", &[1e-3, 0.0, 0.0, 0.0, 0.0, 0.0]),
         acting("preload_loss", &[0.3, 5e-3, 0.0, 0.0]),
         acting("running_in", &[0.3, 1e-3, 0.0, 0.0, 0.0]),
         acting("running_in", &[0.3, 1e12, 0.0, 1e5, 0.0]),

@@ -4,52 +4,88 @@ use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
-/// Break-free forces that follow the load `L = F + k U` of force and displacement, `n = max(1 + a L + e |L| + q L², 0)`,
-/// both ways alike.
+/// Break-free forces that follow force and displacement, both ways alike:
+/// `n = max(1 + a_F F + a_U U + e_F |F| + e_U |U| + q_F F² + q_U U², 0)`.
 pub struct NormalLoadVariation;
 
-static PARAMETERS: [Parameter; 4] = [
+static PARAMETERS: [Parameter; 6] = [
     Parameter {
-        name: "sensitivity",
-        symbol: "a",
+        name: "force_sensitivity",
+        symbol: "a_F",
         unit: "1/N",
         lower: -1e6,
         upper: 1e6,
         vanishes_at: Some(0.0),
         neutral: Some(0.0),
-        meaning: "relative change of the break-free forces per newton of load",
+        meaning: "relative change of the break-free forces per newton of force",
     },
     Parameter {
-        name: "displacement_weight",
-        symbol: "k",
-        unit: "N/m",
-        lower: 0.0,
+        name: "displacement_sensitivity",
+        symbol: "a_U",
+        unit: "1/m",
+        lower: -1e13,
         upper: 1e13,
-        vanishes_at: None,
-        neutral: None,
-        meaning: "load that counts per metre of displacement; 0 where the clamping follows the force alone",
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "the same per metre of displacement",
     },
     Parameter {
-        name: "even_sensitivity",
-        symbol: "e",
+        name: "even_force_sensitivity",
+        symbol: "e_F",
         unit: "1/N",
         lower: -1e6,
         upper: 1e6,
         vanishes_at: Some(0.0),
         neutral: Some(0.0),
-        meaning: "the same per newton of load either way, as of bolts that are bent",
+        meaning: "the same per newton of force either way, as of bolts that are bent",
     },
     Parameter {
-        name: "quadratic_sensitivity",
-        symbol: "q",
-        unit: "1/N2",
-        lower: -1e6,
-        upper: 1e6,
+        name: "even_displacement_sensitivity",
+        symbol: "e_U",
+        unit: "1/m",
+        lower: -1e13,
+        upper: 1e13,
         vanishes_at: Some(0.0),
         neutral: Some(0.0),
-        meaning: "the same per square of the load, as of bolts that are bent a little",
+        meaning: "the same per metre of displacement either way",
+    },
+    Parameter {
+        name: "force_curvature",
+        symbol: "q_F",
+        unit: "1/N2",
+        lower: -1e12,
+        upper: 1e12,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "the same per square of the force, as of bolts that are bent a little",
+    },
+    Parameter {
+        name: "displacement_curvature",
+        symbol: "q_U",
+        unit: "1/m2",
+        lower: -1e26,
+        upper: 1e26,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "the same per square of the displacement",
     },
 ];
+
+/// Places of the values that follow the force and of those that follow the displacement: in proportion, either way
+/// alike, and squared.
+const OF_FORCE: [usize; 3] = [0, 2, 4];
+const OF_DISPLACEMENT: [usize; 3] = [1, 3, 5];
+
+/// Relative change of the break-free forces at the peak that a search begins with.
+const CHANGE: f64 = 0.02;
+
+/// Share of what a law says at the peak that a refinement of it begins with.
+const REFINES: f64 = 0.1;
+
+/// What values at three places say of a load.
+fn change(values: &[f64], [odd, even, square]: [usize; 3], load: f64) -> f64 {
+    values[odd] * load + (values[even] + values[square] * load.abs()) * load.abs()
+}
 
 impl Effect for NormalLoadVariation {
     fn name(&self) -> &'static str {
@@ -62,9 +98,9 @@ impl Effect for NormalLoadVariation {
         &PARAMETERS
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-        let load = last.force + values[1] * last.displacement;
-        let even = values[2] + values[3] * load.abs();
-        let limit = (1.0 + values[0] * load + even * load.abs()).max(0.0);
+        let of_force = change(values, OF_FORCE, last.force);
+        let of_displacement = change(values, OF_DISPLACEMENT, last.displacement);
+        let limit = (1.0 + of_force + of_displacement).max(0.0);
         SlipLimit::either_way(limit)
     }
 }
@@ -80,7 +116,7 @@ impl Cause for NormalLoadVariation {
                 "sensor_nonlinearity",
             ],
             separated_by: "Small loops about a positive mean load against the same about a negative one: their areas differ here, while friction that depends on direction gives both the same; an opening joint changes stiffness and no area.",
-            formula: "phi = phi_0 max(1 + a L + e |L| + q L^2, 0), L = F + k U",
+            formula: "phi = phi_0 max(1 + a_F F + a_U U + e_F |F| + e_U |U| + q_F F^2 + q_U U^2, 0)",
             source: "Friction contact with variable normal load: Menq, Griffin and Bielak 1986; Yang, Chu and Menq 1998.",
         }
     }
@@ -88,29 +124,53 @@ impl Cause for NormalLoadVariation {
         &NormalLoadVariation
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let of = |(weight, [odd, even, square]): (f64, [f64; 3])| {
-            let load = scale.force * (1.0 + weight);
-            let weight = weight * scale.force / scale.displacement;
-            vec![odd / load, weight, even / load, square / (load * load)]
-        };
-        // The force or the displacement: from either a refit finds what lies between, from between not always.
-        let odd = [0.0, 30.0].map(|weight| (weight, [0.02, 0.0, 0.0]));
         // Either way alike, force and displacement do different things: the one stiffens loops that the other widens.
-        let even = [
-            (0.0, [0.0, 0.02, 0.0]),
-            (100.0, [0.0, 0.02, 0.0]),
-            (100.0, [0.0, 0.0, 0.02]),
-        ];
-        odd.into_iter().chain(even).map(of).collect()
+        let shapes = [(0, 1), (1, 1), (2, 1), (3, 1), (5, 2)];
+        let one = |(place, power): (usize, i32)| {
+            let mut values = vec![0.0; PARAMETERS.len()];
+            values[place] = CHANGE / peak(place, scale).powi(power);
+            values
+        };
+        shapes.map(one).to_vec()
     }
+    /// Proportional laws bend as an exponential would, and those either way are sharp or not.
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        let load = scale.force + values[1] * scale.displacement;
         let mut refined = values.to_vec();
-        match values[2] == 0.0 {
-            true => refined[2] = 0.1 * values[3] * load,
-            false => refined[3] = 0.1 * values[2] / load,
+        for [odd, even, square] in [OF_FORCE, OF_DISPLACEMENT] {
+            let peak = peak(odd, scale);
+            match [odd, even, square].map(|place| values[place] != 0.0) {
+                [_, true, false] => refined[square] = REFINES * values[even] / peak,
+                [_, false, true] => refined[even] = REFINES * values[square] * peak,
+                [true, false, false] => refined[square] = 0.5 * values[odd] * values[odd],
+                _ => {}
+            }
         }
         refined
+    }
+    /// What lies between force and displacement, as behind a spring in the load path.
+    fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
+        let [force, displacement] = [values[0], values[1]];
+        let mut between = values.to_vec();
+        match (force == 0.0, displacement == 0.0) {
+            (false, true) => {
+                between[0] = 0.5 * force;
+                between[1] = 0.5 * force * scale.force / scale.displacement;
+            }
+            (true, false) => {
+                between[0] = 0.5 * displacement * scale.displacement / scale.force;
+                between[1] = 0.5 * displacement;
+            }
+            _ => return None,
+        }
+        Some(between)
+    }
+}
+
+/// Peak of what the value at a place multiplies.
+fn peak(place: usize, scale: &Scale) -> f64 {
+    match OF_FORCE.contains(&place) {
+        true => scale.force,
+        false => scale.displacement,
     }
 }
 
@@ -120,7 +180,7 @@ mod tests {
 
     #[test]
     fn the_limit_follows_force_and_displacement_and_stays_a_limit() {
-        let at = |values: [f64; 4], force, displacement| {
+        let at = |values: [f64; 6], force, displacement| {
             let last = Situation {
                 force,
                 displacement,
@@ -128,11 +188,41 @@ mod tests {
             };
             NormalLoadVariation.slip_limit(&values, &last, &[])
         };
-        assert_eq!(at([0.25, 0.0, 0.0, 0.0], 2.0, 7.0).positive, 1.5);
-        assert_eq!(at([0.25, 2.0, 0.0, 0.0], 2.0, -3.0).negative, 0.0);
-        assert_eq!(at([0.25, 2.0, 0.0, 0.0], 2.0, -1.5).negative, 0.75);
-        assert_eq!(at([0.25, 0.0, 0.0, 0.0], -20.0, 0.0).positive, 0.0);
-        assert_eq!(at([0.25, 2.0, 0.5, 0.0], 2.0, -1.5).positive, 1.25);
-        assert_eq!(at([0.25, 2.0, 0.0, 0.5], 2.0, -1.5).positive, 1.25);
+        assert_eq!(at([0.25, 0.0, 0.0, 0.0, 0.0, 0.0], 2.0, 7.0).positive, 1.5);
+        assert_eq!(at([0.25, 0.5, 0.0, 0.0, 0.0, 0.0], 2.0, -3.0).negative, 0.0);
+        assert_eq!(
+            at([0.25, 0.0, 0.0, 0.0, 0.0, 0.0], -20.0, 0.0).positive,
+            0.0
+        );
+        assert_eq!(
+            at([0.0, 0.0, 0.25, 0.5, 0.0, 0.0], -2.0, -3.0).positive,
+            3.0
+        );
+        assert_eq!(
+            at([0.0, 0.0, 0.0, 0.0, 0.25, 0.5], -2.0, -3.0).negative,
+            6.5
+        );
+    }
+
+    #[test]
+    fn a_law_is_refined_in_what_it_follows() {
+        let scale = Scale {
+            force: 4.0,
+            displacement: 2.0,
+            ..Scale::default()
+        };
+        let starts = NormalLoadVariation.starts(&scale);
+        let refined: Vec<Vec<usize>> = starts
+            .iter()
+            .map(|start| {
+                let refined = NormalLoadVariation.refined(start, &scale);
+                (0..6).filter(|&i| refined[i] != start[i]).collect()
+            })
+            .collect();
+        assert_eq!(refined, [[4], [5], [4], [5], [3]]);
+        let between = NormalLoadVariation.begun_anew(&starts[0], &scale).unwrap();
+        assert_eq!(between[..2], [0.0025, 0.005]);
+        assert_eq!(NormalLoadVariation.begun_anew(&between, &scale), None);
+        assert_eq!(NormalLoadVariation.begun_anew(&starts[2], &scale), None);
     }
 }

@@ -81,10 +81,12 @@ OTHERS = {
     },
     "asymmetric_friction": {"asymmetry": 0.1},
     "normal_load_variation": {
-        "sensitivity": 1e-4,
-        "displacement_weight": 0.0,
-        "even_sensitivity": 2e-5,
-        "quadratic_sensitivity": 1e-8,
+        "force_sensitivity": 1e-4,
+        "displacement_sensitivity": 1e3,
+        "even_force_sensitivity": 2e-5,
+        "even_displacement_sensitivity": 1e2,
+        "force_curvature": 1e-8,
+        "displacement_curvature": 1e6,
     },
     "preload_loss": {"loss": 0.1, "energy": 1.0, "tail": 0.3, "per_path": 10.0},
     "running_in": {

@@ -135,7 +135,7 @@ QUANTITIES = [
 NOT_COMPARABLE = {
     "slack_growth": "the laboratory's play grows with a power of the load, the finder's in line",
     "cubic_stiffness": "inverse or direct hyperbolic sine against a cube",
-    "normal_load_variation": "exponential against linear, and the finder's weights two loads",
+    "normal_load_variation": "exponential against linear and square",
     "running_in": "settles along the slip path, the finder's with dissipated energy",
     "velocity_weakening": "x/(1 + x) against 1 - exp(-x): the limit at high speed is another one",
     "creep": "three Kelvin elements of any shares against one to three",
