@@ -147,22 +147,24 @@ impl Cause for NormalLoadVariation {
         }
         refined
     }
-    /// What lies between force and displacement, as behind a spring in the load path.
+    /// What lies between force and displacement, as behind a spring in the load path: of what is proportional, or of
+    /// what is alike either way.
     fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
-        let [force, displacement] = [values[0], values[1]];
+        let kinds = match values[0] != 0.0 || values[1] != 0.0 {
+            true => &[(0, 1)][..],
+            false => &[(2, 1), (4, 2)],
+        };
         let mut between = values.to_vec();
-        match (force == 0.0, displacement == 0.0) {
-            (false, true) => {
-                between[0] = 0.5 * force;
-                between[1] = 0.5 * force * scale.force / scale.displacement;
+        for &(force, power) in kinds {
+            let displacement = force + 1;
+            let over = (scale.force / scale.displacement).powi(power);
+            let whole = values[force] + values[displacement] / over;
+            if values[force] == 0.0 || values[displacement] == 0.0 {
+                between[force] = 0.5 * whole;
+                between[displacement] = 0.5 * whole * over;
             }
-            (true, false) => {
-                between[0] = 0.5 * displacement * scale.displacement / scale.force;
-                between[1] = 0.5 * displacement;
-            }
-            _ => return None,
         }
-        Some(between)
+        (between != values).then_some(between)
     }
 }
 
@@ -223,6 +225,7 @@ mod tests {
         let between = NormalLoadVariation.begun_anew(&starts[0], &scale).unwrap();
         assert_eq!(between[..2], [0.0025, 0.005]);
         assert_eq!(NormalLoadVariation.begun_anew(&between, &scale), None);
-        assert_eq!(NormalLoadVariation.begun_anew(&starts[2], &scale), None);
+        let either_way = NormalLoadVariation.begun_anew(&starts[4], &scale).unwrap();
+        assert_eq!(either_way, [0.0, 0.0, 0.0, 0.0, 0.000_625, 0.0025]);
     }
 }
