@@ -2,7 +2,7 @@
 
 use iwan::identify::{Form, Problem, baseline};
 use iwan::record::Record;
-use iwan::record::outliers::{Neighbours, outliers, scattered};
+use iwan::record::outliers::{Neighbours, outliers, scattered, struck_out};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -40,6 +40,36 @@ fn a_spike_is_found_and_neither_noise_nor_a_kink_is() {
     let found = outliers(&sine, Neighbours::Line);
     assert_eq!(found.len(), 1);
     assert!((found[0].1 - (0.06_f64 * 1234.0).sin()).abs() < 1e-3);
+}
+
+/// A mass in a triangle's load cell shows at every turn, at levels of the load that grow, and stays; readings that a
+/// logger lost in both channels at once do not make turns of each other.
+#[test]
+fn what_comes_back_at_every_turn_is_no_spark() {
+    let way = |i: usize| (i % 80) as f64 / 40.0 - 1.0;
+    let displacement: Vec<f64> = (0..4000)
+        .map(|i| (1.0 + i as f64 / 4000.0) * (2.0 * way(i).abs() - 1.0))
+        .collect();
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut force: Vec<f64> = displacement
+        .iter()
+        .map(|u| 100.0 * u + 0.01 * normal(&mut random))
+        .collect();
+    for turn in (40..4000).step_by(40) {
+        force[turn] += if turn % 80 == 0 { -80.0 } else { 80.0 };
+    }
+    let mut record = Record {
+        force,
+        displacement,
+        ..Record::default()
+    };
+    assert_eq!(outliers(&record.force, Neighbours::Line).len(), 99);
+    assert_eq!(struck_out(&record), record);
+    let lost = [411, 1207, 1750, 2334, 3341];
+    for i in lost {
+        (record.force[i], record.displacement[i]) = (-9999.0, -9999.0);
+    }
+    assert_eq!(struck_out(&record).alone, lost);
 }
 
 /// Of a residual with one spike a cycle, always at the same load, and of sparks anywhere, the sparks alone
@@ -188,7 +218,7 @@ fn a_lost_sample_changes_no_verdict() {
             1 => spiked.displacement[1234] = lost,
             _ => spiked.force[1234] = lost,
         }
-        assert_eq!(iwan::record::outliers::struck_out(&spiked).alone, [1234]);
+        assert_eq!(struck_out(&spiked).alone, [1234]);
         let (spiked_verdict, spiked_judged, spiked_noise) = found(&spiked);
         assert_eq!(
             (spiked_verdict, &spiked_judged),

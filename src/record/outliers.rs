@@ -1,7 +1,7 @@
 //! Samples that stand alone: a digit lost on the way, a spark in the cable, a jolt of the drive.
 
 use super::Record;
-use super::cycles::span;
+use super::cycles::{span, turning_points};
 
 /// What the neighbours on one side say of a sample: their mean, or the line through them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +37,12 @@ const AROUND: usize = 12;
 /// Levels of the drive that are told apart, each on its way up and on its way down.
 const LEVELS: usize = 20;
 
+/// Share of its range by which the other channel goes back where it turned.
+const TURNED: f64 = 0.02;
+
+/// Samples to either side of a turn that may hold what happens there.
+const AT_TURN: usize = 1;
+
 /// How many at one level and way, and how many times more often than elsewhere, tell that they are no
 /// sparks.
 const GATHERED: f64 = 4.0;
@@ -64,19 +70,49 @@ pub fn scattered(found: Vec<(usize, f64)>, drive: &[f64]) -> Vec<(usize, f64)> {
     kept.copied().collect()
 }
 
+/// Those that do not gather at the turns of the other channel: a spark knows nothing of them, while a mass shows there.
+fn strewn(found: Vec<(usize, f64)>, other: &[f64]) -> Vec<(usize, f64)> {
+    let mut turns = vec![false; other.len()];
+    for turn in turning_points(other, TURNED) {
+        let last = (turn + AT_TURN).min(other.len() - 1);
+        turns[turn.saturating_sub(AT_TURN)..=last].fill(true);
+    }
+    let room = turns.iter().filter(|turned| **turned).count() as f64;
+    let (at_turns, elsewhere): (Vec<_>, Vec<_>) = found.iter().partition(|(i, _)| turns[*i]);
+    let here = at_turns.len() as f64;
+    let expected = (elsewhere.len() as f64 + 1.0) * room / (other.len() as f64 - room).max(1.0);
+    match here >= GATHERED && here > GATHERED * expected {
+        true => elsewhere,
+        false => found,
+    }
+}
+
 /// The record with samples that stand alone in either channel replaced by what their neighbours say, and marked: a spike
 /// of the input would send a model's memory elsewhere for good, and any of them passes for a range or for noise.
 pub fn struck_out(record: &Record) -> Record {
-    let mut struck = record.clone();
-    for channel in [&mut struck.force, &mut struck.displacement] {
-        for (i, instead) in outliers(channel, Neighbours::Line) {
-            channel[i] = instead;
-            struck.alone.push(i);
-        }
+    let channels = [&record.force, &record.displacement];
+    let found = channels.map(|channel| outliers(channel, Neighbours::Line));
+    let [force, displacement] = [0, 1].map(|k| without(channels[k], &found[k]));
+    let [of_force, of_displacement] = found;
+    let of_force = strewn(of_force, &displacement);
+    let of_displacement = strewn(of_displacement, &force);
+    let samples = of_force.iter().chain(&of_displacement).map(|(i, _)| *i);
+    let mut alone: Vec<usize> = record.alone.iter().copied().chain(samples).collect();
+    alone.sort_unstable();
+    alone.dedup();
+    Record {
+        force: without(&record.force, &of_force),
+        displacement: without(&record.displacement, &of_displacement),
+        alone,
+        ..record.clone()
     }
-    struck.alone.sort_unstable();
-    struck.alone.dedup();
-    struck
+}
+
+/// The channel with what its neighbours say in the place of samples that stand alone.
+fn without(channel: &[f64], alone: &[(usize, f64)]) -> Vec<f64> {
+    let mut channel = channel.to_vec();
+    alone.iter().for_each(|&(i, instead)| channel[i] = instead);
+    channel
 }
 
 /// What is said of a record of which so many samples stand alone.
