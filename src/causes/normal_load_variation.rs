@@ -2,6 +2,7 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
+use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces that follow force and displacement, both ways alike:
@@ -125,10 +126,17 @@ impl Cause for NormalLoadVariation {
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         // Either way alike, force and displacement do different things: the one stiffens loops that the other widens.
-        let shapes = [(0, 1), (1, 1), (2, 1), (3, 1), (5, 2)];
-        let one = |(place, power): (usize, i32)| {
+        let (force, displacement) = (scale.force, scale.displacement);
+        let shapes = [
+            (0, force),
+            (1, displacement),
+            (2, force),
+            (3, displacement),
+            (5, square(displacement)),
+        ];
+        let one = |(place, load): (usize, f64)| {
             let mut values = vec![0.0; PARAMETERS.len()];
-            values[place] = CHANGE / peak(place, scale).powi(power);
+            values[place] = CHANGE / load;
             values
         };
         shapes.map(one).to_vec()
@@ -150,14 +158,14 @@ impl Cause for NormalLoadVariation {
     /// What lies between force and displacement, as behind a spring in the load path: of what is proportional, or of
     /// what is alike either way.
     fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
+        let over = scale.force / scale.displacement;
         let kinds = match values[0] != 0.0 || values[1] != 0.0 {
-            true => &[(0, 1)][..],
-            false => &[(2, 1), (4, 2)],
+            true => &[(0, over)][..],
+            false => &[(2, over), (4, square(over))],
         };
         let mut between = values.to_vec();
-        for &(force, power) in kinds {
+        for &(force, over) in kinds {
             let displacement = force + 1;
-            let over = (scale.force / scale.displacement).powi(power);
             let whole = values[force] + values[displacement] / over;
             if values[force] == 0.0 || values[displacement] == 0.0 {
                 between[force] = 0.5 * whole;
