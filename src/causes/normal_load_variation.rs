@@ -84,8 +84,8 @@ const CHANGE: f64 = 0.02;
 const REFINES: f64 = 0.1;
 
 /// What values at three places say of a load.
-fn change(values: &[f64], [odd, even, square]: [usize; 3], load: f64) -> f64 {
-    values[odd] * load + (values[even] + values[square] * load.abs()) * load.abs()
+fn change(values: &[f64], [odd, even, squared]: [usize; 3], load: f64) -> f64 {
+    values[odd] * load + (values[even] + values[squared] * load.abs()) * load.abs()
 }
 
 impl Effect for NormalLoadVariation {
@@ -125,8 +125,8 @@ impl Cause for NormalLoadVariation {
         &NormalLoadVariation
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        // Either way alike, force and displacement do different things: the one stiffens loops that the other widens.
         let (force, displacement) = (scale.force, scale.displacement);
+        // Either way alike, force and displacement do different things: the one stiffens loops that the other widens.
         let shapes = [
             (0, force),
             (1, displacement),
@@ -144,12 +144,15 @@ impl Cause for NormalLoadVariation {
     /// Proportional laws bend as an exponential would, and those either way are sharp or not.
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
         let mut refined = values.to_vec();
-        for [odd, even, square] in [OF_FORCE, OF_DISPLACEMENT] {
-            let peak = peak(odd, scale);
-            match [odd, even, square].map(|place| values[place] != 0.0) {
-                [_, true, false] => refined[square] = REFINES * values[even] / peak,
-                [_, false, true] => refined[even] = REFINES * values[square] * peak,
-                [true, false, false] => refined[square] = 0.5 * values[odd] * values[odd],
+        let channels = [
+            (OF_FORCE, scale.force),
+            (OF_DISPLACEMENT, scale.displacement),
+        ];
+        for (places @ [odd, even, squared], peak) in channels {
+            match places.map(|place| values[place] != 0.0) {
+                [_, true, false] => refined[squared] = REFINES * values[even] / peak,
+                [_, false, true] => refined[even] = REFINES * values[squared] * peak,
+                [true, false, false] => refined[squared] = 0.5 * square(values[odd]),
                 _ => {}
             }
         }
@@ -173,14 +176,6 @@ impl Cause for NormalLoadVariation {
             }
         }
         (between != values).then_some(between)
-    }
-}
-
-/// Peak of what the value at a place multiplies.
-fn peak(place: usize, scale: &Scale) -> f64 {
-    match OF_FORCE.contains(&place) {
-        true => scale.force,
-        false => scale.displacement,
     }
 }
 

@@ -40,8 +40,8 @@ pub fn form(records: &[Record]) -> Form {
         displacement += noise(&record.displacement);
     }
     let deep = records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP);
-    let force_drives = displacement > ALIKE * force && full_slip(records).is_none();
-    if deep && !force_drives {
+    let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
+    if deep && !force_drives() {
         return Form::Stop;
     }
     let alike = (force / displacement).max(displacement / force) < ALIKE;

@@ -43,8 +43,8 @@ const TURNED: f64 = 0.02;
 /// Samples to either side of a turn that may hold what happens there.
 const AT_TURN: usize = 1;
 
-/// How many at one level and way, and how many times more often than elsewhere, tell that they are no
-/// sparks.
+/// How many in one place, be it a level and way or the turns, and how many times more often than elsewhere, tell that
+/// they are no sparks.
 const GATHERED: f64 = 4.0;
 
 /// Those that do not gather at one level of the drive on one way through it: a spark knows nothing of the
@@ -61,27 +61,35 @@ pub fn scattered(found: Vec<(usize, f64)>, drive: &[f64]) -> Vec<(usize, f64)> {
     (0..drive.len()).for_each(|i| room[stage(i)] += 1.0);
     let mut here = [0.0; 2 * LEVELS];
     found.iter().for_each(|(i, _)| here[stage(*i)] += 1.0);
-    let gathered = |stage: usize| {
-        let elsewhere = found.len() as f64 - here[stage] + 1.0;
-        let expected = elsewhere * room[stage] / (drive.len() as f64 - room[stage]).max(1.0);
-        here[stage] >= GATHERED && here[stage] > GATHERED * expected
-    };
+    let of_all = found.len() as f64;
+    let gathered = |stage: usize| gather((here[stage], of_all), (room[stage], drive.len() as f64));
     let kept = found.iter().filter(|(i, _)| !gathered(stage(*i)));
     kept.copied().collect()
 }
 
+/// True where those `here`, of all that were found, are more than what a place that has `room` for some of all samples
+/// gets by chance.
+fn gather((here, found): (f64, f64), (room, samples): (f64, f64)) -> bool {
+    let elsewhere = found - here + 1.0;
+    let expected = elsewhere * room / (samples - room).max(1.0);
+    here >= GATHERED && here > GATHERED * expected
+}
+
 /// Those that do not gather at the turns of the other channel: a spark knows nothing of them, while a mass shows there.
 fn strewn(found: Vec<(usize, f64)>, other: &[f64]) -> Vec<(usize, f64)> {
+    let (of_all, samples) = (found.len() as f64, other.len() as f64);
+    if of_all < GATHERED {
+        return found;
+    }
     let mut turns = vec![false; other.len()];
     for turn in turning_points(other, TURNED) {
         let last = (turn + AT_TURN).min(other.len() - 1);
         turns[turn.saturating_sub(AT_TURN)..=last].fill(true);
     }
     let room = turns.iter().filter(|turned| **turned).count() as f64;
-    let (at_turns, elsewhere): (Vec<_>, Vec<_>) = found.iter().partition(|(i, _)| turns[*i]);
-    let here = at_turns.len() as f64;
-    let expected = (elsewhere.len() as f64 + 1.0) * room / (other.len() as f64 - room).max(1.0);
-    match here >= GATHERED && here > GATHERED * expected {
+    let elsewhere: Vec<_> = found.iter().copied().filter(|(i, _)| !turns[*i]).collect();
+    let here = of_all - elsewhere.len() as f64;
+    match gather((here, of_all), (room, samples)) {
         true => elsewhere,
         false => found,
     }
@@ -90,22 +98,21 @@ fn strewn(found: Vec<(usize, f64)>, other: &[f64]) -> Vec<(usize, f64)> {
 /// The record with samples that stand alone in either channel replaced by what their neighbours say, and marked: a spike
 /// of the input would send a model's memory elsewhere for good, and any of them passes for a range or for noise.
 pub fn struck_out(record: &Record) -> Record {
-    let channels = [&record.force, &record.displacement];
-    let found = channels.map(|channel| outliers(channel, Neighbours::Line));
-    let [force, displacement] = [0, 1].map(|k| without(channels[k], &found[k]));
-    let [of_force, of_displacement] = found;
+    let found = |channel| outliers(channel, Neighbours::Line);
+    let (of_force, of_displacement) = (found(&record.force), found(&record.displacement));
+    // Readings that both channels lost at once make no turns of each other.
+    let force = without(&record.force, &of_force);
+    let displacement = without(&record.displacement, &of_displacement);
     let of_force = strewn(of_force, &displacement);
     let of_displacement = strewn(of_displacement, &force);
-    let samples = of_force.iter().chain(&of_displacement).map(|(i, _)| *i);
-    let mut alone: Vec<usize> = record.alone.iter().copied().chain(samples).collect();
-    alone.sort_unstable();
-    alone.dedup();
-    Record {
-        force: without(&record.force, &of_force),
-        displacement: without(&record.displacement, &of_displacement),
-        alone,
-        ..record.clone()
-    }
+    let mut struck = record.clone();
+    struck.force = without(&record.force, &of_force);
+    struck.displacement = without(&record.displacement, &of_displacement);
+    let alone = of_force.iter().chain(&of_displacement);
+    struck.alone.extend(alone.map(|(i, _)| *i));
+    struck.alone.sort_unstable();
+    struck.alone.dedup();
+    struck
 }
 
 /// The channel with what its neighbours say in the place of samples that stand alone.
