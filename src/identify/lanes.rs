@@ -19,6 +19,8 @@ pub struct Bank {
     trial: Vec<Lanes>,
     /// What is left of each operator's excess, where those that rest hold more.
     bonds: Option<Bonds>,
+    /// True where nobody asks for tangents.
+    explicit: bool,
 }
 
 #[inline(always)]
@@ -62,7 +64,14 @@ impl Bank {
             thresholds,
             weights,
             bonds: None,
+            explicit: false,
         }
+    }
+
+    /// The bank where its input is known beforehand: tangents are not asked for, and need not be right.
+    pub fn explicit(mut self, explicit: bool) -> Bank {
+        self.explicit = explicit;
+        self
     }
 
     /// The bank, virgin still, of operators that hold more by this share while they rest.
@@ -88,18 +97,20 @@ impl Bank {
 
     /// Plays tried at an input: Σ c P and its tangent; `limits` scale the thresholds by direction.
     pub fn plays(&mut self, input: f64, limits: (f64, f64)) -> (f64, f64) {
+        let explicit = self.explicit;
         let (arch, columns, bonds) = self.columns_mut();
         match bonds {
-            None => arch.dispatch(Plays(columns, input, limits)),
+            None => arch.dispatch(Plays(columns, input, limits, explicit)),
             Some(bonds) => arch.dispatch(bonds.plays(columns, input, limits)),
         }
     }
 
     /// Stops tried after an increment of the input: Σ w s and its tangent.
     pub fn stops(&mut self, increment: f64, limits: (f64, f64)) -> (f64, f64) {
+        let explicit = self.explicit;
         let (arch, columns, bonds) = self.columns_mut();
         match bonds {
-            None => arch.dispatch(Stops(columns, increment, limits)),
+            None => arch.dispatch(Stops(columns, increment, limits, explicit)),
             Some(bonds) => arch.dispatch(bonds.stops(columns, increment, limits)),
         }
     }
@@ -134,14 +145,14 @@ pub(super) struct Columns<'a> {
     pub trial: &'a mut [Lanes],
 }
 
-struct Plays<'a>(Columns<'a>, f64, (f64, f64));
+struct Plays<'a>(Columns<'a>, f64, (f64, f64), bool);
 
 impl NullaryFnOnce for Plays<'_> {
     type Output = (f64, f64);
 
     #[inline(always)]
     fn call(self) -> (f64, f64) {
-        let Plays(at, input, (up, down)) = self;
+        let Plays(at, input, (up, down), explicit) = self;
         // Separate loops: one that does everything is vectorised across its two sums, two wide.
         let moves = at
             .positions
@@ -151,10 +162,11 @@ impl NullaryFnOnce for Plays<'_> {
         for (t, (p, r)) in at.trial.as_flattened_mut().iter_mut().zip(moves) {
             *t = lower(upper(*p, input - r * up), input + r * down);
         }
-        (
-            sum(at.trial, at.weights),
-            moved(at.trial, at.positions, at.weights),
-        )
+        let tangent = match explicit {
+            true => 0.0,
+            false => moved(at.trial, at.positions, at.weights),
+        };
+        (sum(at.trial, at.weights), tangent)
     }
 }
 
@@ -193,14 +205,14 @@ fn followed(trial: &[Lanes], positions: &[Lanes], weights: &[Lanes], increment: 
     total(tangent)
 }
 
-struct Stops<'a>(Columns<'a>, f64, (f64, f64));
+struct Stops<'a>(Columns<'a>, f64, (f64, f64), bool);
 
 impl NullaryFnOnce for Stops<'_> {
     type Output = (f64, f64);
 
     #[inline(always)]
     fn call(self) -> (f64, f64) {
-        let Stops(at, increment, (up, down)) = self;
+        let Stops(at, increment, (up, down), explicit) = self;
         let held = at
             .positions
             .as_flattened()
@@ -209,10 +221,11 @@ impl NullaryFnOnce for Stops<'_> {
         for (t, (p, d)) in at.trial.as_flattened_mut().iter_mut().zip(held) {
             *t = lower(upper(p + increment, -d * down), d * up);
         }
-        (
-            sum(at.trial, at.weights),
-            followed(at.trial, at.positions, at.weights, increment),
-        )
+        let tangent = match explicit {
+            true => 0.0,
+            false => followed(at.trial, at.positions, at.weights, increment),
+        };
+        (sum(at.trial, at.weights), tangent)
     }
 }
 

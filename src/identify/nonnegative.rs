@@ -112,13 +112,16 @@ impl Normal {
     /// Minimises the sum of squares with `x_j ≥ 0` wherever `bounded[j]` (Lawson and Hanson's
     /// active set on normal equations; free unknowns are always in the passive set).
     ///
+    /// All unknowns are passive at first, and those that turn negative are let go together until none does: most of a
+    /// dictionary is found so in a few solutions, and only what was let go too soon is taken back one by one.
+    ///
     /// Ends at a point that satisfies the Karush–Kuhn–Tucker conditions to rounding, checked by the
     /// tests below.
     pub fn solve(&self, bounded: &[bool]) -> Vec<f64> {
         let n = self.size;
         let scale = self.scale();
         let mut x = vec![0.0; n];
-        let mut passive: Vec<bool> = (0..n).map(|i| !bounded[i] && scale[i] > 0.0).collect();
+        let mut passive: Vec<bool> = scale.iter().map(|s| *s > 0.0).collect();
         let tolerance = 1e-11 * self.square.sqrt();
         self.settle(&mut x, &mut passive, bounded, &scale);
         // Unknowns that were tried and came straight back: nearly equal columns do that to rounding.
@@ -157,7 +160,7 @@ impl Normal {
     fn settle(&self, x: &mut [f64], passive: &mut [bool], bounded: &[bool], scale: &[f64]) {
         loop {
             let members: Vec<usize> = (0..self.size).filter(|&i| passive[i]).collect();
-            let Some(trial) = self.solve_members(&members, scale, &self.right) else {
+            let Some(trial) = Factor::of(self, &members, scale).solve(&self.right) else {
                 return;
             };
             let mut step = 1.0_f64;
@@ -182,72 +185,9 @@ impl Normal {
         }
     }
 
-    /// `A⁻¹v` over the given unknowns alone; `None` where it is no number.
-    pub(super) fn solve_for(&self, members: &[usize], v: &[f64]) -> Option<Vec<f64>> {
-        self.solve_members(members, &self.scale(), v)
-    }
-
-    /// Cholesky solution over the given unknowns, each scaled to unit diagonal.
-    fn solve_members(&self, members: &[usize], scale: &[f64], right: &[f64]) -> Option<Vec<f64>> {
-        let m = members.len();
-        let mut factor = vec![0.0; m * m];
-        for (a, &i) in members.iter().enumerate() {
-            for (b, &j) in members.iter().enumerate().take(a + 1) {
-                let mut sum = self.gram[i * self.size + j] * scale[i] * scale[j];
-                if a == b {
-                    // Far below what the data resolve, so that nearly equal columns cannot break it.
-                    sum += 1e-12;
-                }
-                for k in 0..b {
-                    sum -= factor[a * m + k] * factor[b * m + k];
-                }
-                if a == b {
-                    factor[a * m + a] = sum.max(1e-13).sqrt();
-                } else {
-                    factor[a * m + b] = sum / factor[b * m + b];
-                }
-            }
-        }
-        let mut solution: Vec<f64> = members.iter().map(|&i| right[i] * scale[i]).collect();
-        for a in 0..m {
-            for k in 0..a {
-                solution[a] -= factor[a * m + k] * solution[k];
-            }
-            solution[a] /= factor[a * m + a];
-        }
-        for a in (0..m).rev() {
-            for k in a + 1..m {
-                solution[a] -= factor[k * m + a] * solution[k];
-            }
-            solution[a] /= factor[a * m + a];
-        }
-        if solution.iter().any(|v| !v.is_finite()) {
-            return None;
-        }
-        Some(
-            solution
-                .iter()
-                .zip(members)
-                .map(|(v, &i)| v * scale[i])
-                .collect(),
-        )
-    }
-
-    /// For another column with the given inner products `cross`: how much of its own square and of
-    /// its product with the target the given unknowns account for, `(vᵀA⁻¹v, vᵀA⁻¹b)`.
-    pub fn project(&self, members: &[usize], cross: &[f64]) -> Option<(f64, f64)> {
-        let solution = self.solve_for(members, cross)?;
-        let explained = members
-            .iter()
-            .zip(&solution)
-            .map(|(&i, v)| v * cross[i])
-            .sum();
-        let along = members
-            .iter()
-            .zip(&solution)
-            .map(|(&i, v)| v * self.right[i])
-            .sum();
-        Some((explained, along))
+    /// The equations of the given unknowns alone, ready to be solved for many right-hand sides.
+    pub(super) fn factor(&self, members: &[usize]) -> Factor {
+        Factor::of(self, members, &self.scale())
     }
 
     /// One over the root of the diagonal; zero where a column is empty.
@@ -263,6 +203,88 @@ impl Normal {
             })
             .collect()
     }
+}
+
+/// Cholesky factor of the equations of some unknowns, each scaled to unit diagonal.
+pub(super) struct Factor {
+    members: Vec<usize>,
+    /// By member.
+    scale: Vec<f64>,
+    /// Lower triangle, row by row.
+    rows: Vec<f64>,
+}
+
+impl Factor {
+    fn of(normal: &Normal, members: &[usize], scale: &[f64]) -> Factor {
+        let m = members.len();
+        let mut rows = vec![0.0; m * m];
+        for (a, &i) in members.iter().enumerate() {
+            let (above, own) = rows.split_at_mut(a * m);
+            for (b, &j) in members.iter().enumerate().take(a) {
+                let upper = &above[b * m..=b * m + b];
+                let entry = normal.gram[i * normal.size + j] * scale[i] * scale[j];
+                own[b] = (entry - dot(&own[..b], &upper[..b])) / upper[b];
+            }
+            // Far below what the data resolve, so that nearly equal columns cannot break it.
+            let entry = normal.gram[i * normal.size + i] * scale[i] * scale[i] + 1e-12;
+            own[a] = (entry - dot(&own[..a], &own[..a])).max(1e-13).sqrt();
+        }
+        Factor {
+            members: members.to_vec(),
+            scale: members.iter().map(|&i| scale[i]).collect(),
+            rows,
+        }
+    }
+
+    /// `A⁻¹v` by member, of a right-hand side `v` of all unknowns; `None` where one is no number.
+    pub(super) fn solve(&self, v: &[f64]) -> Option<Vec<f64>> {
+        let m = self.members.len();
+        let scaled = self.members.iter().zip(&self.scale);
+        let mut solution: Vec<f64> = scaled.map(|(&i, scale)| v[i] * scale).collect();
+        for a in 0..m {
+            let row = &self.rows[a * m..=a * m + a];
+            solution[a] = (solution[a] - dot(&row[..a], &solution[..a])) / row[a];
+        }
+        for a in (0..m).rev() {
+            let row = &self.rows[a * m..=a * m + a];
+            solution[a] /= row[a];
+            let own = solution[a];
+            let before = solution[..a].iter_mut().zip(row);
+            before.for_each(|(value, entry)| *value -= entry * own);
+        }
+        let scaled = solution.iter_mut().zip(&self.scale);
+        scaled.for_each(|(value, scale)| *value *= scale);
+        solution.iter().all(|v| v.is_finite()).then_some(solution)
+    }
+
+    /// For a column with the inner products `cross`: how much of its square and of its product with the target the
+    /// members account for, `(vᵀA⁻¹v, vᵀA⁻¹b)`, `b` by `right`.
+    pub(super) fn project(&self, cross: &[f64], right: &[f64]) -> Option<(f64, f64)> {
+        let solution = self.solve(cross)?;
+        let sum = |of: &[f64]| -> f64 {
+            let both = self.members.iter().zip(&solution);
+            both.map(|(&i, v)| v * of[i]).sum()
+        };
+        Some((sum(cross), sum(right)))
+    }
+}
+
+/// Sum of products, in four sums side by side.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (left, right) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = left
+        .remainder()
+        .iter()
+        .zip(right.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    let mut sums = [0.0; 4];
+    for (x, y) in left.zip(right) {
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum += x * y;
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

@@ -109,17 +109,20 @@ fn score_batch(problem: &Problem, current: &Current, batch: &[Acting]) -> Vec<Sc
         .filter(|&i| i >= columns || fit.coefficients[i] > 0.0)
         .filter(|&i| common.gram[i * size + i] > 0.0)
         .collect();
+    let factor = common.factor(&free);
     batch
         .iter()
         .enumerate()
         .map(|(b, acting)| {
             let (cross, own) = tried(b);
-            one(acting, &common, &free, cross, own)
+            one(acting, factor.project(cross, &common.right), own)
         })
         .collect()
 }
 
-fn one(acting: &Acting, common: &Normal, free: &[usize], cross: &[f64], own: (f64, f64)) -> Score {
+/// The score of a shape of which the current model's unknowns explain so much, of its square `own.0` and of its product
+/// with the target `own.1`.
+fn one(acting: &Acting, explained: Option<(f64, f64)>, own: (f64, f64)) -> Score {
     let nothing = Score {
         acting: acting.clone(),
         fall: 0.0,
@@ -127,8 +130,7 @@ fn one(acting: &Acting, common: &Normal, free: &[usize], cross: &[f64], own: (f6
     if own.0 <= 0.0 {
         return nothing;
     }
-    let projected = common.project(free, cross);
-    let Some((explained, along)) = projected else {
+    let Some((explained, along)) = explained else {
         return nothing;
     };
     let norm = own.0 - explained;

@@ -96,9 +96,10 @@ fn freedom(plain: &Normal, rough: &Normal, bounded: &[bool], solution: &[f64]) -
     let passive: Vec<usize> = (0..size)
         .filter(|&i| !bounded[i] || solution[i] > 0.0)
         .collect();
+    let factor = rough.factor(&passive);
     let own = |(place, &i): (usize, &usize)| {
         let cross = &plain.gram[i * size..(i + 1) * size];
-        rough.solve_for(&passive, cross).map(|x| x[place])
+        factor.solve(cross).map(|x| x[place])
     };
     passive.iter().enumerate().filter_map(own).sum()
 }

@@ -29,14 +29,38 @@ pub fn near(nominal: f64, long: f64, most: usize) -> Vec<f64> {
     (0..=2 * half).map(at).collect()
 }
 
+/// Samples over which a sine is turned on from one to the next before it is taken anew.
+const TURNED: usize = 16;
+
+/// Angle \[rad\] by which a sample may be off its place among evenly spaced ones for the sine to be turned on to it.
+const EVEN: f64 = 1e-7;
+
+/// Sine and cosine of a frequency \[Hz\] at every one of some times; `each` sees its index, too.
+fn waves(time: &[f64], frequency: f64, mut each: impl FnMut(usize, f64, f64)) {
+    let fast = TAU * frequency;
+    let long = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
+    let step = long / time.len().saturating_sub(1).max(1) as f64;
+    let (sine, cosine) = (fast * step).sin_cos();
+    for (block, times) in time.chunks(TURNED).enumerate() {
+        let (mut s, mut c) = (0.0, 1.0);
+        for (i, t) in times.iter().enumerate() {
+            let off = |before: f64| (t - before - step).abs() * fast;
+            (s, c) = match i > 0 && off(times[i - 1]) < EVEN {
+                true => (s * cosine + c * sine, c * cosine - s * sine),
+                false => (fast * t).sin_cos(),
+            };
+            each(block * TURNED + i, s, c);
+        }
+    }
+}
+
 /// Amplitudes of the sine and the cosine of a frequency \[Hz\] in values over time.
 pub fn line(time: &[f64], values: &[f64], frequency: f64) -> (f64, f64) {
     let (mut sine, mut cosine) = (0.0, 0.0);
-    for (t, value) in time.iter().zip(values) {
-        let (s, c) = (TAU * frequency * t).sin_cos();
-        sine += value * s;
-        cosine += value * c;
-    }
+    waves(time, frequency, |i, s, c| {
+        sine += values[i] * s;
+        cosine += values[i] * c;
+    });
     let half = 0.5 * time.len().max(1) as f64;
     (sine / half, cosine / half)
 }
@@ -46,10 +70,7 @@ pub fn without_lines(time: &[f64], values: &[f64], frequencies: &[f64]) -> Vec<f
     let mut left = values.to_vec();
     for frequency in frequencies {
         let (sine, cosine) = line(time, &left, *frequency);
-        for (t, value) in time.iter().zip(&mut left) {
-            let (s, c) = (TAU * frequency * t).sin_cos();
-            *value -= sine * s + cosine * c;
-        }
+        waves(time, *frequency, |i, s, c| left[i] -= sine * s + cosine * c);
     }
     left
 }
@@ -103,6 +124,18 @@ mod tests {
         assert!((found - 1.0).abs() < 0.1, "{found}");
         let found = beneath_mains(&time, &noise).deviation;
         assert!((found - 1.0).abs() < 0.1, "{found}");
+    }
+
+    #[test]
+    fn a_sine_is_the_same_at_even_and_at_uneven_times() {
+        for uneven in [0.0, 1e-10, 1e-4] {
+            let place = |i: i32| 0.3 + 1e-3 * f64::from(i) + uneven * f64::from(i * i % 7);
+            let time: Vec<f64> = (0..3000).map(place).collect();
+            waves(&time, 49.97, |i, s, c| {
+                let (sine, cosine) = (TAU * 49.97 * time[i]).sin_cos();
+                assert!((s - sine).abs().max((c - cosine).abs()) < 1e-5, "{i}");
+            });
+        }
     }
 
     #[test]

@@ -117,11 +117,11 @@ impl<'a> March<'a> {
         };
         let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
         let sticking = effects.iter().map(|a| a.effect.sticking(&a.values)).sum();
-        let bank = bank.sticking(sticking);
-        March {
+        let worn = |a: &Acting| a.effect.lasting() > 0;
+        let mut march = March {
             operators,
             elastic,
-            bank,
+            bank: bank.sticking(sticking),
             cells: reached,
             effects,
             memories: effects
@@ -137,10 +137,13 @@ impl<'a> March<'a> {
                 Form::Stop => Inertia::default(),
             },
             has,
-            // Only slip limits see the energy; without effects it is what the march is asked for.
-            counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
+            // Only wear sees the energy; without effects it is what the march is asked for.
+            counts_energy: effects.is_empty() || effects.iter().any(worn),
             goes_on: false,
-        }
+        };
+        let feeds_back = march.feeds_back();
+        march.bank = march.bank.explicit(!feeds_back);
+        march
     }
 
     /// True where a change of the model is carried on from sample to sample.
@@ -193,8 +196,7 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Energy dissipated by the network so far [J]; counted without effects and where a slip limit
-    /// acts.
+    /// Energy dissipated by the network so far [J]; counted without effects and where one of them wears.
     pub fn dissipation(&self) -> f64 {
         self.last.dissipation
     }
@@ -203,7 +205,7 @@ impl<'a> March<'a> {
         self.last.force - self.beside_slip(self.last.slip).0
     }
 
-    /// Network output for a trial input, its tangent, the operators' trial positions.
+    /// Network output for a trial input, the operators' trial positions, and the tangent where the network feeds back.
     fn network(&mut self, input: f64) -> (f64, f64) {
         let (output, tangent) = match self.operators.form {
             Form::Play => self.bank.plays(input, self.limits),
