@@ -1,11 +1,11 @@
-//! The inner loops of a march, 32 operators at a time: sums run in 32 lanes whose order is fixed, so
+//! The inner loops of a march, 16 operators at a time: sums run in 16 lanes whose order is fixed, so
 //! that every processor gives the same digits, and are compiled for the widest vectors it has.
 
 use super::bonds::Bonds;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Operators handled together; a bank is filled up to a multiple of it.
-pub const LANES: usize = 32;
+pub const LANES: usize = 16;
 
 pub(super) type Lanes = [f64; LANES];
 
@@ -21,6 +21,18 @@ pub struct Bank {
     bonds: Option<Bonds>,
     /// True where nobody asks for tangents.
     explicit: bool,
+    /// Plays whose limits never move.
+    still: Option<Still>,
+}
+
+/// What plays whose limits never move need not be asked again: those that move with the input are the least
+/// thresholds, up to one.
+#[derive(Debug, Clone)]
+struct Still {
+    /// `Σ c P` at the last accepted sample of each group of operators and those behind it, by lane.
+    from_here: Vec<Lanes>,
+    /// Groups that the last trial moved.
+    moved: usize,
 }
 
 #[inline(always)]
@@ -65,7 +77,18 @@ impl Bank {
             weights,
             bonds: None,
             explicit: false,
+            still: None,
         }
+    }
+
+    /// The bank, virgin still, of plays whose thresholds increase, none of which holds more while it rests, and whose
+    /// limits will always be `(1, 1)`.
+    pub fn still(mut self) -> Bank {
+        self.still = Some(Still {
+            from_here: vec![[0.0; LANES]; self.thresholds.len() + 1],
+            moved: 0,
+        });
+        self
     }
 
     /// The bank where its input is known beforehand: tangents are not asked for, and need not be right.
@@ -98,9 +121,25 @@ impl Bank {
     /// Plays tried at an input: Σ c P and its tangent; `limits` scale the thresholds by direction.
     pub fn plays(&mut self, input: f64, limits: (f64, f64)) -> (f64, f64) {
         let explicit = self.explicit;
+        if let Some(still) = &mut self.still {
+            let first = self.positions.iter().zip(&self.thresholds);
+            let rests = |(p, r): (&Lanes, &Lanes)| (input - p[0]).abs() <= r[0];
+            let groups = self.thresholds.len();
+            still.moved = first.into_iter().position(rests).unwrap_or(groups);
+            let behind = &still.from_here[still.moved];
+            let columns = Columns {
+                thresholds: &self.thresholds[..still.moved],
+                weights: &self.weights[..still.moved],
+                positions: &self.positions[..still.moved],
+                trial: &mut self.trial[..still.moved],
+            };
+            return self
+                .arch
+                .dispatch(Plays(columns, input, limits, (explicit, behind)));
+        }
         let (arch, columns, bonds) = self.columns_mut();
         match bonds {
-            None => arch.dispatch(Plays(columns, input, limits, explicit)),
+            None => arch.dispatch(Plays(columns, input, limits, (explicit, &[0.0; LANES]))),
             Some(bonds) => arch.dispatch(bonds.plays(columns, input, limits)),
         }
     }
@@ -117,7 +156,9 @@ impl Bank {
 
     /// Energy that accepting the plays last tried dissipates \[J\].
     pub fn slid_plays(&mut self, limits: (f64, f64)) -> f64 {
-        let (arch, columns, _) = self.columns_mut();
+        let moved = self.still.as_ref().map_or(self.trial.len(), |s| s.moved);
+        let (arch, mut columns, _) = self.columns_mut();
+        columns.trial = &mut columns.trial[..moved];
         arch.dispatch(SlidPlays(columns, limits))
     }
 
@@ -129,6 +170,14 @@ impl Bank {
 
     /// Accepts what was last tried.
     pub fn accept(&mut self) {
+        if let Some(still) = &mut self.still {
+            let moved = still.moved;
+            self.positions[..moved].copy_from_slice(&self.trial[..moved]);
+            let operators = (&self.positions[..moved], &self.weights[..moved]);
+            return self
+                .arch
+                .dispatch(FromHere(operators, &mut still.from_here));
+        }
         let (arch, columns, bonds) = self.columns_mut();
         if let Some(bonds) = bonds {
             bonds.wear(arch, columns);
@@ -145,14 +194,14 @@ pub(super) struct Columns<'a> {
     pub trial: &'a mut [Lanes],
 }
 
-struct Plays<'a>(Columns<'a>, f64, (f64, f64), bool);
+struct Plays<'a>(Columns<'a>, f64, (f64, f64), (bool, &'a Lanes));
 
 impl NullaryFnOnce for Plays<'_> {
     type Output = (f64, f64);
 
     #[inline(always)]
     fn call(self) -> (f64, f64) {
-        let Plays(at, input, (up, down), explicit) = self;
+        let Plays(at, input, (up, down), (explicit, behind)) = self;
         // Separate loops: one that does everything is vectorised across its two sums, two wide.
         let moves = at
             .positions
@@ -166,19 +215,43 @@ impl NullaryFnOnce for Plays<'_> {
             true => 0.0,
             false => moved(at.trial, at.positions, at.weights),
         };
-        (sum(at.trial, at.weights), tangent)
+        (total(added(*behind, at.trial, at.weights)), tangent)
+    }
+}
+
+/// Brings the sums of the groups that moved, and of those before them, up to date.
+struct FromHere<'a>((&'a [Lanes], &'a [Lanes]), &'a mut [Lanes]);
+
+impl NullaryFnOnce for FromHere<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let FromHere((positions, weights), from_here) = self;
+        let mut sum = from_here[positions.len()];
+        for ((p, w), from) in positions.iter().zip(weights).zip(from_here).rev() {
+            for i in 0..LANES {
+                sum[i] += w[i] * p[i];
+            }
+            *from = sum;
+        }
     }
 }
 
 #[inline(always)]
 pub(super) fn sum(trial: &[Lanes], weights: &[Lanes]) -> f64 {
-    let mut output = [0.0; LANES];
+    total(added([0.0; LANES], trial, weights))
+}
+
+/// Lanes with weighted positions added.
+#[inline(always)]
+fn added(mut output: Lanes, trial: &[Lanes], weights: &[Lanes]) -> Lanes {
     for (t, w) in trial.iter().zip(weights) {
         for i in 0..LANES {
             output[i] += w[i] * t[i];
         }
     }
-    total(output)
+    output
 }
 
 /// Weights of the operators whose position changed.

@@ -112,38 +112,37 @@ impl Normal {
     /// Minimises the sum of squares with `x_j ≥ 0` wherever `bounded[j]` (Lawson and Hanson's
     /// active set on normal equations; free unknowns are always in the passive set).
     ///
-    /// All unknowns are passive at first, and those that turn negative are let go together until none does: most of a
-    /// dictionary is found so in a few solutions, and only what was let go too soon is taken back one by one.
-    ///
     /// Ends at a point that satisfies the Karush–Kuhn–Tucker conditions to rounding, checked by the
     /// tests below.
     pub fn solve(&self, bounded: &[bool]) -> Vec<f64> {
         let n = self.size;
         let scale = self.scale();
         let mut x = vec![0.0; n];
-        let mut passive: Vec<bool> = scale.iter().map(|s| *s > 0.0).collect();
+        let free: Vec<usize> = (0..n).filter(|&i| !bounded[i] && scale[i] > 0.0).collect();
+        let mut passive = self.factor(&free);
         let tolerance = 1e-11 * self.square.sqrt();
-        self.settle(&mut x, &mut passive, bounded, &scale);
+        self.settle(&mut x, &mut passive, bounded);
         // Unknowns that were tried and came straight back: nearly equal columns do that to rounding.
         // They wait until another one has moved the solution.
         let mut waiting = vec![false; n];
         for _ in 0..4 * n {
             let gradient = |i: usize| -> f64 {
                 let line = &self.gram[i * n..(i + 1) * n];
-                let product: f64 = line.iter().zip(&x).map(|(a, b)| a * b).sum();
-                (self.right[i] - product) * scale[i]
+                (self.right[i] - dot(line, &x)) * scale[i]
             };
             let best = (0..n)
-                .filter(|&i| bounded[i] && !passive[i] && !waiting[i] && scale[i] > 0.0)
+                .filter(|&i| bounded[i] && !passive.has(i) && !waiting[i] && scale[i] > 0.0)
                 .map(|i| (i, gradient(i)))
                 .max_by(|a, b| a.1.total_cmp(&b.1));
             match best {
                 Some((i, slope)) if slope > tolerance => {
-                    passive[i] = true;
+                    passive.push(self, i);
                     let before = x.clone();
-                    self.settle(&mut x, &mut passive, bounded, &scale);
+                    self.settle(&mut x, &mut passive, bounded);
                     if x == before {
-                        passive[i] = false;
+                        if passive.has(i) {
+                            passive = passive.without(self, |j| j == i);
+                        }
                         waiting[i] = true;
                     } else {
                         waiting.iter_mut().for_each(|w| *w = false);
@@ -157,37 +156,42 @@ impl Normal {
 
     /// Solves on the passive set, stepping back to the boundary whenever a bounded unknown would
     /// turn negative.
-    fn settle(&self, x: &mut [f64], passive: &mut [bool], bounded: &[bool], scale: &[f64]) {
-        loop {
-            let members: Vec<usize> = (0..self.size).filter(|&i| passive[i]).collect();
-            let Some(trial) = Factor::of(self, &members, scale).solve(&self.right) else {
-                return;
-            };
+    fn settle(&self, x: &mut [f64], passive: &mut Factor, bounded: &[bool]) {
+        while let Some(trial) = passive.solve(&self.right) {
+            let both = || passive.members.iter().zip(&trial);
             let mut step = 1.0_f64;
-            for (&i, &value) in members.iter().zip(&trial) {
+            for (&i, &value) in both() {
                 if bounded[i] && value <= 0.0 {
                     let fraction = x[i] / (x[i] - value);
                     step = step.min(if fraction.is_finite() { fraction } else { 0.0 });
                 }
             }
-            for (&i, &value) in members.iter().zip(&trial) {
+            for (&i, &value) in both() {
                 x[i] += step * (value - x[i]);
             }
             if step >= 1.0 {
                 return;
             }
-            for (&i, &value) in members.iter().zip(&trial) {
+            let mut gone = vec![false; self.size];
+            for (&i, &value) in both() {
                 if bounded[i] && value <= 0.0 && x[i] <= 1e-14 * value.abs() {
-                    x[i] = 0.0;
-                    passive[i] = false;
+                    (x[i], gone[i]) = (0.0, true);
                 }
             }
+            *passive = passive.without(self, |i| gone[i]);
         }
     }
 
     /// The equations of the given unknowns alone, ready to be solved for many right-hand sides.
     pub(super) fn factor(&self, members: &[usize]) -> Factor {
-        Factor::of(self, members, &self.scale())
+        let mut factor = Factor {
+            members: Vec::with_capacity(self.size),
+            is_member: vec![false; self.size],
+            scale: self.scale(),
+            rows: Vec::with_capacity(self.size * (self.size + 1) / 2),
+        };
+        members.iter().for_each(|&i| factor.push(self, i));
+        factor
     }
 
     /// One over the root of the diagonal; zero where a column is empty.
@@ -208,52 +212,65 @@ impl Normal {
 /// Cholesky factor of the equations of some unknowns, each scaled to unit diagonal.
 pub(super) struct Factor {
     members: Vec<usize>,
-    /// By member.
+    /// Of every unknown.
+    is_member: Vec<bool>,
+    /// Of every unknown.
     scale: Vec<f64>,
     /// Lower triangle, row by row.
     rows: Vec<f64>,
 }
 
 impl Factor {
-    fn of(normal: &Normal, members: &[usize], scale: &[f64]) -> Factor {
-        let m = members.len();
-        let mut rows = vec![0.0; m * m];
-        for (a, &i) in members.iter().enumerate() {
-            let (above, own) = rows.split_at_mut(a * m);
-            for (b, &j) in members.iter().enumerate().take(a) {
-                let upper = &above[b * m..=b * m + b];
-                let entry = normal.gram[i * normal.size + j] * scale[i] * scale[j];
-                own[b] = (entry - dot(&own[..b], &upper[..b])) / upper[b];
-            }
-            // Far below what the data resolve, so that nearly equal columns cannot break it.
-            let entry = normal.gram[i * normal.size + i] * scale[i] * scale[i] + 1e-12;
-            own[a] = (entry - dot(&own[..a], &own[..a])).max(1e-13).sqrt();
+    fn has(&self, i: usize) -> bool {
+        self.is_member[i]
+    }
+
+    /// Row of a member, its diagonal last.
+    fn row(&self, place: usize) -> &[f64] {
+        let begins = place * (place + 1) / 2;
+        &self.rows[begins..=begins + place]
+    }
+
+    /// Takes one more unknown in.
+    fn push(&mut self, normal: &Normal, i: usize) {
+        let line = &normal.gram[i * normal.size..(i + 1) * normal.size];
+        let mut own: Vec<f64> = Vec::with_capacity(self.members.len() + 1);
+        for (place, &j) in self.members.iter().enumerate() {
+            let (diagonal, before) = self.row(place).split_last().unwrap_or((&1.0, &[]));
+            let entry = line[j] * self.scale[i] * self.scale[j];
+            own.push((entry - dot(&own, before)) / diagonal);
         }
-        Factor {
-            members: members.to_vec(),
-            scale: members.iter().map(|&i| scale[i]).collect(),
-            rows,
-        }
+        // Far below what the data resolve, so that nearly equal columns cannot break it.
+        let entry = line[i] * self.scale[i] * self.scale[i] + 1e-12;
+        own.push((entry - dot(&own, &own)).max(1e-13).sqrt());
+        self.is_member[i] = true;
+        self.members.push(i);
+        self.rows.append(&mut own);
+    }
+
+    /// The equations without the members that are `gone`.
+    fn without(&self, normal: &Normal, gone: impl Fn(usize) -> bool) -> Factor {
+        let stay: Vec<usize> = self.members.iter().copied().filter(|&i| !gone(i)).collect();
+        normal.factor(&stay)
     }
 
     /// `A⁻¹v` by member, of a right-hand side `v` of all unknowns; `None` where one is no number.
     pub(super) fn solve(&self, v: &[f64]) -> Option<Vec<f64>> {
         let m = self.members.len();
-        let scaled = self.members.iter().zip(&self.scale);
-        let mut solution: Vec<f64> = scaled.map(|(&i, scale)| v[i] * scale).collect();
+        let mut solution: Vec<f64> = self.members.iter().map(|&i| v[i] * self.scale[i]).collect();
         for a in 0..m {
-            let row = &self.rows[a * m..=a * m + a];
+            let row = self.row(a);
             solution[a] = (solution[a] - dot(&row[..a], &solution[..a])) / row[a];
         }
         for a in (0..m).rev() {
-            let row = &self.rows[a * m..=a * m + a];
+            let row = self.row(a);
             solution[a] /= row[a];
             let own = solution[a];
             let before = solution[..a].iter_mut().zip(row);
             before.for_each(|(value, entry)| *value -= entry * own);
         }
-        let scaled = solution.iter_mut().zip(&self.scale);
-        scaled.for_each(|(value, scale)| *value *= scale);
+        let scaled = solution.iter_mut().zip(&self.members);
+        scaled.for_each(|(value, &i)| *value *= self.scale[i]);
         solution.iter().all(|v| v.is_finite()).then_some(solution)
     }
 

@@ -115,13 +115,18 @@ impl<'a> March<'a> {
             true => &coefficients[1..],
             false => &coefficients[1..=operators.edges.len()],
         };
-        let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
         let sticking = effects.iter().map(|a| a.effect.sticking(&a.values)).sum();
+        let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
+        let still = operators.form == Form::Play && !has[index(Place::SlipLimit)];
+        let bank = match still && sticking == 0.0 {
+            true => bank.still(),
+            false => bank.sticking(sticking),
+        };
         let worn = |a: &Acting| a.effect.lasting() > 0;
         let mut march = March {
             operators,
             elastic,
-            bank: bank.sticking(sticking),
+            bank,
             cells: reached,
             effects,
             memories: effects
