@@ -36,9 +36,9 @@ static PARAMETERS: [Parameter; 2] = [
 /// Excess of the contacts' own that a search starts from: what it does is far from proportional.
 const OWN_EXCESS: f64 = 0.15;
 
-/// Distances over which contacts are tried as letting go together, as shares of the largest displacement: a search
-/// finds one from within a factor of three.
-const DISTANCES: [f64; 4] = [0.02, 0.08, 0.3, LONG];
+/// Distances over which contacts are tried as letting go together, as shares of the largest
+/// displacement: one beside contacts of their own, one after them.
+const SHORT: f64 = 0.3;
 const LONG: f64 = 1.2;
 
 /// Way back that counts as a reversal, as a share of the widest slip so far: noise turns back all
@@ -120,9 +120,10 @@ impl Cause for StaticFrictionDrop {
         &StaticFrictionDrop
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let together = DISTANCES.map(|share| vec![0.02, share * scale.displacement]);
-        let own = std::iter::once(vec![OWN_EXCESS, 0.0]);
-        own.chain(together).collect()
+        vec![
+            vec![OWN_EXCESS, 0.0],
+            vec![0.02, SHORT * scale.displacement],
+        ]
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
         let [excess, distance] = *values else {
