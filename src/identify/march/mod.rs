@@ -6,10 +6,12 @@ mod by_displacement;
 mod by_force;
 mod places;
 
+pub use places::added;
+
 use super::inertia::{Carried, Inertia};
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
-use crate::joint::effect::{Acting, Place, Situation, Trajectory};
+use crate::joint::effect::{Acting, Place, Situation};
 
 /// Effects sorted by place, with the history they keep.
 pub struct March<'a> {
@@ -335,20 +337,4 @@ impl<'a> March<'a> {
             acting.effect.remember(&acting.values, &self.last, memory);
         }
     }
-}
-
-/// What the effects at one channel add to the truth, summed.
-pub fn added(effects: &[Acting], place: Place, truth: &Trajectory) -> Option<Vec<f64>> {
-    let mut sum: Option<Vec<f64>> = None;
-    for acting in effects.iter().filter(|a| a.acts_at(place)) {
-        let one = acting.effect.channel(&acting.values, place, truth);
-        sum = Some(match sum {
-            None => one,
-            Some(mut all) => {
-                all.iter_mut().zip(&one).for_each(|(a, b)| *a += b);
-                all
-            }
-        });
-    }
-    sum
 }

@@ -1,7 +1,7 @@
 //! What the effects do at their places, summed, with the slopes that a step's equation needs.
 
 use super::{March, index};
-use crate::joint::effect::Place;
+use crate::joint::effect::{Acting, Place, Trajectory};
 
 /// Force beside the joint, with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
@@ -96,4 +96,20 @@ impl March<'_> {
             _ => (first, [1.0 / step, -1.0 / step, 0.0]),
         }
     }
+}
+
+/// What the effects at one channel add to the truth, summed.
+pub fn added(effects: &[Acting], place: Place, truth: &Trajectory) -> Option<Vec<f64>> {
+    let mut sum: Option<Vec<f64>> = None;
+    for acting in effects.iter().filter(|a| a.acts_at(place)) {
+        let one = acting.effect.channel(&acting.values, place, truth);
+        sum = Some(match sum {
+            None => one,
+            Some(mut all) => {
+                all.iter_mut().zip(&one).for_each(|(a, b)| *a += b);
+                all
+            }
+        });
+    }
+    sum
 }
