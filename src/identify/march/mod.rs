@@ -124,7 +124,6 @@ impl<'a> March<'a> {
             true => bank.still(),
             false => bank.sticking(sticking),
         };
-        let worn = |a: &Acting| a.effect.lasting() > 0;
         let mut march = March {
             operators,
             elastic,
@@ -144,8 +143,8 @@ impl<'a> March<'a> {
                 Form::Stop => Inertia::default(),
             },
             has,
-            // Only wear sees the energy; without effects it is what the march is asked for.
-            counts_energy: effects.is_empty() || effects.iter().any(worn),
+            // Only slip limits see the energy; without effects it is what the march is asked for.
+            counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
             goes_on: false,
         };
         let feeds_back = march.feeds_back();
@@ -203,7 +202,8 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Energy dissipated by the network so far [J]; counted without effects and where one of them wears.
+    /// Energy dissipated by the network so far [J]; counted without effects and where a slip limit
+    /// acts.
     pub fn dissipation(&self) -> f64 {
         self.last.dissipation
     }
