@@ -122,10 +122,9 @@ impl Bank {
     pub fn plays(&mut self, input: f64, limits: (f64, f64)) -> (f64, f64) {
         let explicit = self.explicit;
         if let Some(still) = &mut self.still {
-            let first = self.positions.iter().zip(&self.thresholds);
             let rests = |(p, r): (&Lanes, &Lanes)| (input - p[0]).abs() <= r[0];
-            let groups = self.thresholds.len();
-            still.moved = first.into_iter().position(rests).unwrap_or(groups);
+            let mut groups = self.positions.iter().zip(&self.thresholds);
+            still.moved = groups.position(rests).unwrap_or(self.thresholds.len());
             let behind = &still.from_here[still.moved];
             let columns = Columns {
                 thresholds: &self.thresholds[..still.moved],
@@ -342,5 +341,37 @@ impl NullaryFnOnce for SlidStops<'_> {
             }
         }
         total(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forty operators and inputs drawn afresh for each of them: output, tangent and energy are those of a bank that asks
+    /// every operator.
+    #[test]
+    fn plays_whose_limits_never_move_need_not_all_be_asked() {
+        let mut noise = crate::record::noise::tests::drawn(20261126);
+        let operators = || (1..=40).map(|j| (0.1 * f64::from(j), 1.0 + f64::from(j * j % 7)));
+        let (mut all, mut still) = (Bank::new(operators()), Bank::new(operators()).still());
+        let limits = (1.0, 1.0);
+        let mut rested = 0;
+        for _ in 0..2000 {
+            // A trial that is not accepted leaves nothing behind.
+            still.plays(2.0 * noise(), limits);
+            let input = 2.0 * noise();
+            let (one, other) = (all.plays(input, limits), still.plays(input, limits));
+            assert!((one.0 - other.0).abs() < 1e-9 && (one.1 - other.1).abs() < 1e-9);
+            let slid = all.slid_plays(limits) - still.slid_plays(limits);
+            assert!(slid.abs() < 1e-9, "{slid}");
+            let moved = still.still.as_ref().map_or(0, |s| s.moved);
+            rested += usize::from(moved < still.thresholds.len());
+            all.accept();
+            still.accept();
+            let both = all.positions().iter().zip(still.positions()).take(40);
+            both.for_each(|(a, b)| assert!((a - b).abs() < 1e-12));
+        }
+        assert!(rested > 100, "{rested} steps left operators alone");
     }
 }
