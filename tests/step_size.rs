@@ -85,8 +85,9 @@ fn errors_of_causes_that_follow_the_joint_fall_with_the_step() {
         acting("running_in", &[0.0, 1e-3, 0.0, 0.0, 2e-9]),
         acting("rate_dependent_friction", &[0.05, 1e-6, 0.02]),
         acting("velocity_weakening", &[0.1, 1e-5, 0.02, 1.0]),
-        acting("static_friction_drop", &[0.3, 0.0]),
-        acting("static_friction_drop", &[0.3, 1e-5]),
+        acting("static_friction_drop", &[0.3, 0.0, 2.0]),
+        acting("static_friction_drop", &[0.3, 1e-5, 2.0]),
+        acting("static_friction_drop", &[0.3, 1e-5, 1.0]),
         acting("creep", &[2e-8, 0.3, 0.0, 0.0]),
     ];
     println!("| cause | 16 steps to a leg | 64 | 256 |\n|---|---|---|---|");

@@ -2,15 +2,15 @@
 
 use super::{Cause, Page, Scale};
 use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
-use crate::joint::elementary::exp;
+use crate::joint::elementary::{exp, power};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces that are higher until the surfaces have slid: of each contact by itself, until its
 /// own breakaway (d = 0, see [`sticking`](crate::joint::sticking)), or of all of them together,
-/// `n = 1 + a exp(−(s/d)²)` with s the slip since the last reversal.
+/// `n = 1 + a exp(−(s/d)^p)` with s the slip since the last reversal.
 pub struct StaticFrictionDrop;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "excess",
         symbol: "a",
@@ -31,14 +31,28 @@ static PARAMETERS: [Parameter; 2] = [
         neutral: Some(0.0),
         meaning: "slip after a reversal over which all contacts lose the excess together; 0: each at its own breakaway",
     },
+    Parameter {
+        name: "sharpness",
+        symbol: "p",
+        unit: "1",
+        lower: 0.5,
+        upper: 4.0,
+        vanishes_at: None,
+        neutral: Some(BELL),
+        meaning: "how suddenly all contacts lose the excess at that distance: 2 as a bell, 1 from the first slip on",
+    },
 ];
+
+/// Sharpness of a bell, and of an excess that goes with the first slip.
+const BELL: f64 = 2.0;
+const GRADUAL: f64 = 1.0;
 
 /// Excess of the contacts' own that a search starts from: what it does is far from proportional.
 const OWN_EXCESS: f64 = 0.15;
 
-/// Distances over which contacts are tried as letting go together, as shares of the largest
-/// displacement: one beside contacts of their own, one after them.
-const SHORT: f64 = 0.3;
+/// Distances over which contacts are tried as letting go together, as shares of the largest displacement: a search
+/// finds one from within a factor of three.
+const DISTANCES: [f64; 4] = [0.02, 0.08, 0.3, LONG];
 const LONG: f64 = 1.2;
 
 /// Way back that counts as a reversal, as a share of the widest slip so far: noise turns back all
@@ -94,8 +108,12 @@ impl Effect for StaticFrictionDrop {
         if values[1] <= 0.0 {
             return SlipLimit::UNCHANGED;
         }
-        let slid = (last.slip - memory[0]) / values[1];
-        let limit = 1.0 + values[0] * exp(-slid * slid);
+        let slid = ((last.slip - memory[0]) / values[1]).abs();
+        let fallen = match values[2] == BELL {
+            true => slid * slid,
+            false => power(slid, values[2]),
+        };
+        let limit = 1.0 + values[0] * exp(-fallen);
         SlipLimit::either_way(limit)
     }
 }
@@ -112,7 +130,7 @@ impl Cause for StaticFrictionDrop {
                 "preload_loss",
             ],
             separated_by: "Several frequencies: weakening follows the rate, this the slid distance; minor loops inside a major one are not congruent; a macroslip test in displacement shows the peak above the plateau.",
-            formula: "each contact holds (1 + a) phi_0 at rest and phi_0 once it slides (d = 0), or phi = phi_0 [1 + a exp(-(s/d)^2)], s the slip since the last reversal",
+            formula: "each contact holds (1 + a) phi_0 at rest and phi_0 once it slides (d = 0), or phi = phi_0 [1 + a exp(-(s/d)^p)], s the slip since the last reversal",
             source: "Static against kinetic friction with a breakaway distance; Rabinowicz 1951; slip-weakening law.",
         }
     }
@@ -120,17 +138,16 @@ impl Cause for StaticFrictionDrop {
         &StaticFrictionDrop
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        vec![
-            vec![OWN_EXCESS, 0.0],
-            vec![0.02, SHORT * scale.displacement],
-        ]
+        let together = DISTANCES.map(|share| vec![0.02, share * scale.displacement, BELL]);
+        let own = std::iter::once(vec![OWN_EXCESS, 0.0, BELL]);
+        own.chain(together).collect()
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
-        let [excess, distance] = *values else {
-            return values.to_vec();
-        };
-        let together = LONG * scale.displacement;
-        vec![excess, if distance > 0.0 { distance } else { together }]
+        match *values {
+            [excess, distance, BELL] if distance > 0.0 => vec![excess, distance, GRADUAL],
+            [excess, 0.0, _] => vec![excess, LONG * scale.displacement, GRADUAL],
+            _ => values.to_vec(),
+        }
     }
 }
 
@@ -140,7 +157,7 @@ mod tests {
 
     #[test]
     fn the_excess_is_lost_with_slip_and_back_after_a_reversal() {
-        let (values, mut memory) = ([0.5, 0.1], [0.0; 5]);
+        let (values, mut memory) = ([0.5, 0.1, BELL], [0.0; 5]);
         let mut go = |slip: f64| {
             let now = Situation {
                 slip,
@@ -159,5 +176,24 @@ mod tests {
         let turned = 1.0 + 0.5 * (-0.25_f64).exp();
         assert!((go(1.15) - turned).abs() < 1e-15);
         assert!(go(0.2) < 1.0 + 1e-15);
+    }
+
+    #[test]
+    fn a_gradual_excess_goes_with_the_first_slip() {
+        let limit = |slip: f64, sharpness: f64| {
+            let now = Situation {
+                slip,
+                ..Situation::default()
+            };
+            let values = [0.5, 0.1, sharpness];
+            StaticFrictionDrop
+                .slip_limit(&values, &now, &[0.0; 5])
+                .negative
+        };
+        for slip in [-0.02, 0.02] {
+            assert!((limit(slip, GRADUAL) - 1.0 - 0.5 * (-0.2_f64).exp()).abs() < 1e-12);
+            assert!((limit(slip, BELL) - 1.0 - 0.5 * (-0.04_f64).exp()).abs() < 1e-12);
+        }
+        assert_eq!(limit(0.0, GRADUAL), 1.5);
     }
 }

@@ -342,10 +342,10 @@ mod tests {
             let acting = Acting { effect, values };
             unforetold(&Score { acting, fall })
         };
-        assert!(score("static_friction_drop", &[0.1, 0.0], 0.0));
-        assert!(!score("static_friction_drop", &[0.1, 0.0], 1.0));
+        assert!(score("static_friction_drop", &[0.1, 0.0, 2.0], 0.0));
+        assert!(!score("static_friction_drop", &[0.1, 0.0, 2.0], 1.0));
         // All contacts together let go by degrees.
-        assert!(!score("static_friction_drop", &[0.1, 1e-6], 0.0));
+        assert!(!score("static_friction_drop", &[0.1, 1e-6, 2.0], 0.0));
         assert!(!score("viscous_damping", &[1.0], 0.0));
         // A mass changes the turning points in jumps, and foretells what it takes away.
         assert!(!score("fixture_inertia", &[1.0], 0.0));
