@@ -44,6 +44,9 @@ pub const BLOCKS_TO_SHOW: usize = 4;
 /// tells apart hangs on the law of the cause being true there.
 const KINDS: usize = 3;
 
+/// Blocks that are tried first behind those before them, of all that fit: the others promise less by themselves already.
+const PROMISING: usize = 4;
+
 /// Worth of half a program below which the other half will not settle what is asked.
 const HOPELESS: f64 = 0.05;
 
@@ -178,11 +181,17 @@ impl<'a> Design<'a> {
         each.collect()
     }
 
-    fn with(&self, rig: &Rig, blocks: &[Block]) -> Vec<Standing> {
+    /// Products of the samples of a program, and how many it has.
+    fn products(&self, rig: &Rig, blocks: &[Block]) -> (Gram, f64) {
         let (program, samples) = program(self.problem, rig, blocks);
         let extra = columns(&program, self.coefficients, &self.shapes);
         let products = products(&program, self.coefficients, &extra);
-        self.standings(&self.before.plus(&products), self.rows + samples)
+        (products, samples)
+    }
+
+    /// Every question with such products besides.
+    fn with(&self, (products, samples): &(Gram, f64)) -> Vec<Standing> {
+        self.standings(&self.before.plus(products), self.rows + samples)
     }
 
     /// The program, of so many blocks at most, of the first rig that surely settles every question, else of the rig that comes
@@ -205,43 +214,54 @@ impl<'a> Design<'a> {
         best
     }
 
-    /// Adds the block that helps most until every question is settled or the time is used up.
+    /// Adds the block that helps most until every question is settled or the time is used up: of those of which what
+    /// each gives by itself, from a virgin joint, promises most beside the blocks before it.
     fn grown(&self, rig: Rig, most: usize) -> Option<Chosen> {
         let before = self.standings(&self.before, self.rows);
-        let mut menu = rig.menu();
+        let menu = rig.menu();
+        let alone: Vec<(Gram, f64)> = menu
+            .par_iter()
+            .map(|block| self.products(&rig, &[*block]))
+            .collect();
         let mut blocks: Vec<Block> = Vec::new();
+        let mut so_far = (Gram::new(self.before.size), 0.0);
         let mut best = before.clone();
         while blocks.len() < most {
             // The way back to zero at the end takes a cycle of the last block.
             let lasts = |b: &Block| b.seconds(&rig) + 1.0 / (b.rate * rig.rate);
             let used: f64 = blocks.iter().map(|b| b.seconds(&rig)).sum();
-            let fitting: Vec<Block> = menu
+            let fitting = menu
                 .iter()
-                .filter(|block| used + lasts(block) <= rig.longest())
-                .filter(|block| blocks.len() >= KINDS || !blocks.contains(block))
-                .copied()
+                .zip(&alone)
+                .filter(|(block, _)| used + lasts(block) <= rig.longest())
+                .filter(|(block, _)| blocks.len() >= KINDS || !blocks.contains(block));
+            let mut promising: Vec<(f64, Block, &(Gram, f64))> = fitting
+                .map(|(block, alone)| {
+                    let both = (so_far.0.plus(&alone.0), so_far.1 + alone.1);
+                    (worth(&self.with(&both)), *block, alone)
+                })
                 .collect();
-            let tried = fitting.par_iter().map(|block| {
-                let mut longer = blocks.clone();
-                longer.push(*block);
-                let standings = self.with(&rig, &longer);
-                (worth(&standings), *block, standings)
-            });
-            let mut tried: Vec<(f64, Block, Vec<Standing>)> = tried.collect();
-            tried.sort_by(|a, b| b.0.total_cmp(&a.0));
-            if blocks.len() + 1 == KINDS {
-                // What helps least now will not help most later: the questions stay the same.
-                let better = tried.iter().take(tried.len().div_ceil(2));
-                menu = better.map(|t| t.1).chain(blocks.iter().copied()).collect();
-            }
-            let Some((gained, block, standings)) = tried.into_iter().next() else {
+            promising.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let other = promising.split_off(PROMISING.min(promising.len()));
+            let helps = |tried: &(f64, Block, (Gram, f64))| tried.0 > worth(&best);
+            let better = |some: &[(f64, Block, &(Gram, f64))]| {
+                let tried = some.par_iter().map(|(_, block, alone)| {
+                    let products = match blocks.is_empty() {
+                        true => (*alone).clone(),
+                        false => self.products(&rig, &[&blocks[..], &[*block]].concat()),
+                    };
+                    (worth(&self.with(&products)), *block, products)
+                });
+                let best = tried.max_by(|a, b| a.0.total_cmp(&b.0));
+                best.filter(helps)
+            };
+            // What a block does behind others may be more than by itself, to wear above all.
+            let Some((_, block, products)) = better(&promising).or_else(|| better(&other)) else {
                 break;
             };
-            if gained <= worth(&best) {
-                break;
-            }
             blocks.push(block);
-            best = standings;
+            best = self.with(&products);
+            so_far = products;
             if blocks.len() == KINDS && worth(&best) < HOPELESS {
                 break;
             }
