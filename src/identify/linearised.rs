@@ -45,6 +45,13 @@ pub struct Influence {
     pub variance: f64,
 }
 
+impl Influence {
+    /// How far an unknown goes along with the combination.
+    pub(super) fn of(&self, unknown: usize) -> f64 {
+        self.column[unknown]
+    }
+}
+
 impl<'a> Linearised<'a> {
     /// At the given coefficients and effects.
     pub fn new(problem: &'a Problem, coefficients: &'a [f64], effects: &'a [Acting]) -> Self {
@@ -73,6 +80,20 @@ impl<'a> Linearised<'a> {
     /// Place of the first slope among the unknowns.
     pub(super) fn first(&self) -> usize {
         self.normal.size - self.slopes.len()
+    }
+
+    /// The influence of one unknown.
+    pub(super) fn influence_of(&self, unknown: usize) -> Influence {
+        let mut direction = vec![0.0; self.normal.size];
+        direction[unknown] = 1.0;
+        self.influence(&direction)
+    }
+
+    /// Takes an unknown for known.
+    pub(super) fn hold(&mut self, unknown: usize) {
+        self.normal.hold(unknown);
+        self.solution = self.normal.solve(&self.bounded());
+        self.misfit = self.normal.misfit(&self.solution);
     }
 
     /// The influence of a direction among the unknowns, those at their bounds staying there.
