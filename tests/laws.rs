@@ -520,6 +520,36 @@ fn slopes_are_those_of_the_laws() {
     }
 }
 
+/// A march counts the energy for those laws alone that look at it.
+#[test]
+fn a_slip_limit_follows_the_energy_where_it_says_so() {
+    let answers = simulate(vec![], Drive::Force, &telling());
+    let limits = |acting: &Acting, share: f64| -> Vec<SlipLimit> {
+        let mut memory = vec![0.0; acting.effect.memory()];
+        let seen = situations(&answers).map(|mut now| {
+            now.dissipation *= share;
+            let limit = acting.effect.slip_limit(&acting.values, &now, &memory);
+            acting.effect.remember(&acting.values, &now, &mut memory);
+            limit
+        });
+        seen.collect()
+    };
+    let mut asked = 0;
+    for cause in CATALOGUE
+        .iter()
+        .filter(|c| c.effect().place() == Place::SlipLimit)
+    {
+        let own = starts().filter(|(other, _)| other.name() == cause.name());
+        let follows = own.fold(false, |any, (cause, values)| {
+            let acting = scaled(cause, &values, 1.0);
+            any || limits(&acting, 1.0) != limits(&acting, 0.0)
+        });
+        assert_eq!(follows, cause.effect().sees_energy(), "{}", cause.name());
+        asked += 1;
+    }
+    assert!(asked >= 7, "{asked} laws of slip limits");
+}
+
 #[test]
 fn measurement_causes_change_no_simulation() {
     for (cause, values) in starts().filter(|(cause, _)| !is_joint(*cause)) {

@@ -28,6 +28,9 @@ impl Effect for AsymmetricFriction {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
+    fn sees_energy(&self) -> bool {
+        false
+    }
     fn slip_limit(&self, values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
         SlipLimit {
             positive: 1.0 + values[0],

@@ -93,6 +93,9 @@ impl Effect for RateDependentFriction {
     fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
         follow_rate(now, values[2], memory);
     }
+    fn sees_energy(&self) -> bool {
+        false
+    }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = 1.0 + values[0] * log1p(memory[0] / values[1]);
         SlipLimit::either_way(limit)

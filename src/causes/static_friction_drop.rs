@@ -104,6 +104,9 @@ impl Effect for StaticFrictionDrop {
     fn sticking(&self, values: &[f64]) -> f64 {
         if values[1] > 0.0 { 0.0 } else { values[0] }
     }
+    fn sees_energy(&self) -> bool {
+        false
+    }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
         if values[1] <= 0.0 {
             return SlipLimit::UNCHANGED;

@@ -80,6 +80,9 @@ impl Effect for VelocityWeakening {
     fn remember(&self, values: &[f64], now: &Situation, memory: &mut [f64]) {
         follow_rate(now, values[2], memory);
     }
+    fn sees_energy(&self) -> bool {
+        false
+    }
     fn slip_limit(&self, values: &[f64], _last: &Situation, memory: &[f64]) -> SlipLimit {
         let limit = VelocityWeakening::factor(values, memory[0]);
         SlipLimit::either_way(limit)

@@ -5,19 +5,12 @@ use super::lanes::{Columns, LANES, Lanes, sum, total};
 use crate::joint::sticking::{FALL, left, slide};
 use pulp::{Arch, NullaryFnOnce};
 
-/// What is left of the excess of every operator, and the trial that an accepted step takes it from.
+/// What is left of the excess of every operator, and the input and limits of the trial that an accepted step takes it from.
 #[derive(Debug, Clone)]
 pub(super) struct Bonds {
     excess: f64,
     left: Vec<Lanes>,
-    last: Tried,
-}
-
-/// An input of the plays or an increment of the stops, and the limits beside it.
-#[derive(Debug, Clone, Copy)]
-enum Tried {
-    Plays(f64, (f64, f64)),
-    Stops(f64, (f64, f64)),
+    last: (f64, (f64, f64)),
 }
 
 impl Bonds {
@@ -26,7 +19,7 @@ impl Bonds {
         Bonds {
             excess,
             left: vec![[1.0; LANES]; groups],
-            last: Tried::Plays(0.0, (1.0, 1.0)),
+            last: (0.0, (1.0, 1.0)),
         }
     }
 
@@ -37,19 +30,8 @@ impl Bonds {
         input: f64,
         limits: (f64, f64),
     ) -> Plays<'a> {
-        self.last = Tried::Plays(input, limits);
+        self.last = (input, limits);
         Plays(columns, self, input, limits)
-    }
-
-    /// Stops tried after an increment, as [`Bank::stops`](super::lanes::Bank::stops).
-    pub fn stops<'a>(
-        &'a mut self,
-        columns: Columns<'a>,
-        increment: f64,
-        limits: (f64, f64),
-    ) -> Stops<'a> {
-        self.last = Tried::Stops(increment, limits);
-        Stops(columns, self, increment, limits)
     }
 
     /// Takes the slides of the last trial off the excess.
@@ -73,32 +55,6 @@ fn slid(stands: f64, threshold: f64, (up, down): (f64, f64), excess: f64) -> (f6
 /// Slide per increment while the excess falls.
 const FALLING: f64 = 1.0 / (1.0 - FALL);
 
-/// Tries every operator: how far from rest it stands by its position, and where a slide leads it, with
-/// its tangent, from what of an increment the slide follows.
-#[inline(always)]
-fn tried(
-    at: Columns<'_>,
-    bonds: &Bonds,
-    limits: (f64, f64),
-    stands: impl Fn(f64) -> f64,
-    after: impl Fn(f64, f64, f64) -> (f64, f64),
-) -> (f64, f64) {
-    let mut tangent = [0.0; LANES];
-    let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
-    for ((trial, weight), ((position, threshold), left)) in
-        at.trial.iter_mut().zip(at.weights).zip(held)
-    {
-        for i in 0..LANES {
-            let excess = bonds.excess * left[i];
-            let (slide, follows) = slid(stands(position[i]), threshold[i], limits, excess);
-            let (place, rise) = after(position[i], slide, follows);
-            trial[i] = place;
-            tangent[i] += weight[i] * rise;
-        }
-    }
-    (sum(at.trial, at.weights), total(tangent))
-}
-
 pub(super) struct Plays<'a>(Columns<'a>, &'a Bonds, f64, (f64, f64));
 
 impl NullaryFnOnce for Plays<'_> {
@@ -107,22 +63,19 @@ impl NullaryFnOnce for Plays<'_> {
     #[inline(always)]
     fn call(self) -> (f64, f64) {
         let Plays(at, bonds, input, limits) = self;
-        let after = |position, slide, follows| (position + slide, follows);
-        tried(at, bonds, limits, |position| input - position, after)
-    }
-}
-
-pub(super) struct Stops<'a>(Columns<'a>, &'a Bonds, f64, (f64, f64));
-
-impl NullaryFnOnce for Stops<'_> {
-    type Output = (f64, f64);
-
-    #[inline(always)]
-    fn call(self) -> (f64, f64) {
-        let Stops(at, bonds, increment, limits) = self;
-        let stands = |position| position + increment;
-        let after = |position, slide, follows| (stands(position) - slide, 1.0 - follows);
-        tried(at, bonds, limits, stands, after)
+        let mut tangent = [0.0; LANES];
+        let held = at.positions.iter().zip(at.thresholds).zip(&bonds.left);
+        for ((trial, weight), ((position, threshold), left)) in
+            at.trial.iter_mut().zip(at.weights).zip(held)
+        {
+            for i in 0..LANES {
+                let excess = bonds.excess * left[i];
+                let (slide, follows) = slid(input - position[i], threshold[i], limits, excess);
+                trial[i] = position[i] + slide;
+                tangent[i] += weight[i] * follows;
+            }
+        }
+        (sum(at.trial, at.weights), total(tangent))
     }
 }
 
@@ -134,17 +87,13 @@ impl NullaryFnOnce for Wear<'_> {
     #[inline(always)]
     fn call(self) {
         let Wear(at, bonds) = self;
-        // A play's slide is its own motion, a stop's the input's less its own.
-        let (own, moved, from_input, (up, down)) = match bonds.last {
-            Tried::Plays(input, limits) => (1.0, 0.0, input, limits),
-            Tried::Stops(increment, limits) => (-1.0, increment, 0.0, limits),
-        };
+        let (input, (up, down)) = bonds.last;
         let excess = bonds.excess;
         let held = at.positions.iter().zip(&*at.trial).zip(at.thresholds);
         for (lanes, ((from, to), threshold)) in bonds.left.iter_mut().zip(held) {
             for i in 0..LANES {
-                let slide = own * (to[i] - from[i]) + moved;
-                let force = from_input - own * to[i];
+                let slide = to[i] - from[i];
+                let force = input - to[i];
                 let limit = threshold[i] * if force < 0.0 { down } else { up };
                 lanes[i] = left(lanes[i], slide.abs(), excess * limit, force.abs() / limit);
             }
@@ -164,7 +113,7 @@ mod tests {
         (slip_at, vec![1.0; 40])
     }
 
-    /// Largest difference, over turnings of falling size, between stops that are solved within each step
+    /// Largest difference, over turnings of falling size, between operators that are solved within each step
     /// and a network whose limits are those of the step before, over the largest force.
     fn apart(steps_per_leg: u32) -> f64 {
         let (slip_at, weight) = sliders();
@@ -180,7 +129,7 @@ mod tests {
             let step = (turning - at) / f64::from(steps_per_leg);
             for _ in 0..steps_per_leg {
                 at += step;
-                let (force, _) = bank.stops(step, (1.0, 1.0));
+                let force = bank.weight() * at - bank.plays(at, (1.0, 1.0)).0;
                 bank.accept();
                 network.begin(SlipLimit::UNCHANGED);
                 let dissipated = network.accept(at);
@@ -204,8 +153,9 @@ mod tests {
     fn a_contact_breaks_away_above_the_force_at_which_it_slides() {
         let mut bank = Bank::new([(1.0, 1.0)].into_iter()).sticking(EXCESS);
         let mut forces = Vec::new();
-        for _ in 0..400 {
-            forces.push(bank.stops(0.01, (1.0, 1.0)).0);
+        for step in 1..=400 {
+            let input = 0.01 * f64::from(step);
+            forces.push(input - bank.plays(input, (1.0, 1.0)).0);
             bank.accept();
         }
         let highest = forces.iter().copied().fold(0.0, f64::max);

@@ -9,7 +9,7 @@ pub const LANES: usize = 16;
 
 pub(super) type Lanes = [f64; LANES];
 
-/// The operators of one march, by column.
+/// The operators of one march as plays, by column: a stop is its input less the play of the same threshold.
 #[derive(Debug, Clone)]
 pub struct Bank {
     arch: Arch,
@@ -81,7 +81,7 @@ impl Bank {
         }
     }
 
-    /// The bank, virgin still, of plays whose thresholds increase, none of which holds more while it rests, and whose
+    /// The bank, virgin still, whose thresholds increase, none of which holds more while it rests, and whose
     /// limits will always be `(1, 1)`.
     pub fn still(mut self) -> Bank {
         self.still = Some(Still {
@@ -101,6 +101,11 @@ impl Bank {
     pub fn sticking(mut self, excess: f64) -> Bank {
         self.bonds = (excess > 0.0).then(|| Bonds::new(excess, self.thresholds.len()));
         self
+    }
+
+    /// Σ c over the operators.
+    pub fn weight(&self) -> f64 {
+        self.weights.as_flattened().iter().sum()
     }
 
     /// Positions at the last accepted sample, in the order of the thresholds.
@@ -143,28 +148,12 @@ impl Bank {
         }
     }
 
-    /// Stops tried after an increment of the input: Σ w s and its tangent.
-    pub fn stops(&mut self, increment: f64, limits: (f64, f64)) -> (f64, f64) {
-        let explicit = self.explicit;
-        let (arch, columns, bonds) = self.columns_mut();
-        match bonds {
-            None => arch.dispatch(Stops(columns, increment, limits, explicit)),
-            Some(bonds) => arch.dispatch(bonds.stops(columns, increment, limits)),
-        }
-    }
-
     /// Energy that accepting the plays last tried dissipates \[J\].
     pub fn slid_plays(&mut self, limits: (f64, f64)) -> f64 {
         let moved = self.still.as_ref().map_or(self.trial.len(), |s| s.moved);
         let (arch, mut columns, _) = self.columns_mut();
         columns.trial = &mut columns.trial[..moved];
         arch.dispatch(SlidPlays(columns, limits))
-    }
-
-    /// Energy that accepting the stops last tried after an increment dissipates \[J\].
-    pub fn slid_stops(&mut self, increment: f64) -> f64 {
-        let (arch, columns, _) = self.columns_mut();
-        arch.dispatch(SlidStops(columns, increment))
     }
 
     /// Accepts what was last tried.
@@ -265,42 +254,6 @@ fn moved(trial: &[Lanes], positions: &[Lanes], weights: &[Lanes]) -> f64 {
     total(tangent)
 }
 
-/// Weights of the stops that followed the increment.
-#[inline(always)]
-fn followed(trial: &[Lanes], positions: &[Lanes], weights: &[Lanes], increment: f64) -> f64 {
-    let mut tangent = [0.0; LANES];
-    for ((t, p), w) in trial.iter().zip(positions).zip(weights) {
-        for i in 0..LANES {
-            tangent[i] += if t[i] == p[i] + increment { w[i] } else { 0.0 };
-        }
-    }
-    total(tangent)
-}
-
-struct Stops<'a>(Columns<'a>, f64, (f64, f64), bool);
-
-impl NullaryFnOnce for Stops<'_> {
-    type Output = (f64, f64);
-
-    #[inline(always)]
-    fn call(self) -> (f64, f64) {
-        let Stops(at, increment, (up, down), explicit) = self;
-        let held = at
-            .positions
-            .as_flattened()
-            .iter()
-            .zip(at.thresholds.as_flattened());
-        for (t, (p, d)) in at.trial.as_flattened_mut().iter_mut().zip(held) {
-            *t = lower(upper(p + increment, -d * down), d * up);
-        }
-        let tangent = match explicit {
-            true => 0.0,
-            false => followed(at.trial, at.positions, at.weights, increment),
-        };
-        (sum(at.trial, at.weights), tangent)
-    }
-}
-
 struct SlidPlays<'a>(Columns<'a>, (f64, f64));
 
 impl NullaryFnOnce for SlidPlays<'_> {
@@ -320,24 +273,6 @@ impl NullaryFnOnce for SlidPlays<'_> {
             for i in 0..LANES {
                 let moved = t[i] - p[i];
                 sum[i] += c[i] * r[i] * upper(moved * up, -moved * down);
-            }
-        }
-        total(sum)
-    }
-}
-
-struct SlidStops<'a>(Columns<'a>, f64);
-
-impl NullaryFnOnce for SlidStops<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn call(self) -> f64 {
-        let SlidStops(at, increment) = self;
-        let mut sum = [0.0; LANES];
-        for ((t, p), w) in at.trial.iter().zip(at.positions).zip(at.weights) {
-            for i in 0..LANES {
-                sum[i] += w[i] * t[i] * (increment - (t[i] - p[i]));
             }
         }
         total(sum)

@@ -11,9 +11,8 @@ use super::operators::{Form, SHARED};
 /// Operators that came to rest in one step remember the same: a step costs as many columns as such groups change.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Remembered {
-    /// Positions after the last step, and the slip they belong to.
+    /// Positions, as plays, after the last step.
     positions: Vec<f64>,
-    slip: f64,
     /// The operators that have a weight.
     held: Vec<Held>,
     groups: Vec<Group>,
@@ -75,7 +74,6 @@ impl Remembered {
         }
         self.positions.clear();
         self.positions.extend_from_slice(positions);
-        self.slip = march.slip();
         let sign = match march.form() {
             Form::Play => 1.0,
             Form::Stop => -1.0,
@@ -95,8 +93,6 @@ impl Remembered {
 
     fn follow(&mut self, march: &March) {
         let positions = march.positions();
-        let moved = march.slip() - self.slip;
-        let form = march.form();
         let mut rested = None;
         for k in 0..self.held.len() {
             let Held {
@@ -105,11 +101,7 @@ impl Remembered {
                 state,
             } = self.held[k];
             let (now, before) = (positions[place], self.positions[place]);
-            let slips = match form {
-                Form::Play => now != before,
-                Form::Stop => now != before + moved,
-            };
-            let next = match (slips, state) {
+            let next = match (now != before, state) {
                 (true, State::Rests(group)) => {
                     self.groups[group].members -= 1;
                     self.groups[group].change -= weight;

@@ -176,6 +176,10 @@ pub trait Effect: Send + Sync {
     fn slip_limit(&self, _values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
         SlipLimit::UNCHANGED
     }
+    /// [`Place::SlipLimit`]: true where the limit follows what the network has dissipated, which a march then counts.
+    fn sees_energy(&self) -> bool {
+        true
+    }
     /// [`Place::SlipLimit`]: share by which each contact of the network that rests holds more than
     /// once it slides, see [`sticking`](super::sticking).
     fn sticking(&self, _values: &[f64]) -> f64 {

@@ -18,6 +18,8 @@ pub struct March<'a> {
     operators: &'a Operators,
     elastic: f64,
     bank: Bank,
+    /// Σ c of the bank where its operators are stops, each its input less a play: 0 for plays themselves.
+    stopped: f64,
     cells: &'a [f64],
     effects: &'a [Acting],
     memories: Vec<Vec<f64>>,
@@ -119,7 +121,11 @@ impl<'a> March<'a> {
         };
         let sticking = effects.iter().map(|a| a.effect.sticking(&a.values)).sum();
         let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
-        let still = operators.form == Form::Play && !has[index(Place::SlipLimit)];
+        let still = !has[index(Place::SlipLimit)];
+        let stopped = match operators.form {
+            Form::Play => 0.0,
+            Form::Stop => bank.weight(),
+        };
         let bank = match still && sticking == 0.0 {
             true => bank.still(),
             false => bank.sticking(sticking),
@@ -128,6 +134,7 @@ impl<'a> March<'a> {
             operators,
             elastic,
             bank,
+            stopped,
             cells: reached,
             effects,
             memories: effects
@@ -144,7 +151,10 @@ impl<'a> March<'a> {
             },
             has,
             // Only slip limits see the energy; without effects it is what the march is asked for.
-            counts_energy: effects.is_empty() || has[index(Place::SlipLimit)],
+            counts_energy: effects.is_empty()
+                || effects
+                    .iter()
+                    .any(|a| a.acts_at(Place::SlipLimit) && a.effect.sees_energy()),
             goes_on: false,
         };
         let feeds_back = march.feeds_back();
@@ -170,11 +180,15 @@ impl<'a> March<'a> {
         };
         let cells = self.bank.positions().chunks_exact(SHARED);
         for (output, cell) in outputs[1..].iter_mut().zip(cells) {
-            *output = cell.iter().sum::<f64>() / SHARED as f64;
+            let play = cell.iter().sum::<f64>() / SHARED as f64;
+            *output = match self.operators.form {
+                Form::Play => play,
+                Form::Stop => self.last.slip - play,
+            };
         }
     }
 
-    /// Positions of the operators at the end of the last step, in the order of the thresholds.
+    /// Positions of the operators, as plays, at the end of the last step, in the order of the thresholds.
     pub(super) fn positions(&self) -> &[f64] {
         self.bank.positions()
     }
@@ -189,11 +203,6 @@ impl<'a> March<'a> {
         self.operators.form
     }
 
-    /// Slip at the end of the last step \[m\].
-    pub(super) fn slip(&self) -> f64 {
-        self.last.slip
-    }
-
     /// True where what the network gives moves its own input.
     pub(super) fn feeds_back(&self) -> bool {
         match self.operators.form {
@@ -203,7 +212,7 @@ impl<'a> March<'a> {
     }
 
     /// Energy dissipated by the network so far [J]; counted without effects and where a slip limit
-    /// acts.
+    /// follows it.
     pub fn dissipation(&self) -> f64 {
         self.last.dissipation
     }
@@ -214,11 +223,14 @@ impl<'a> March<'a> {
 
     /// Network output for a trial input, the operators' trial positions, and the tangent where the network feeds back.
     fn network(&mut self, input: f64) -> (f64, f64) {
-        let (output, tangent) = match self.operators.form {
-            Form::Play => self.bank.plays(input, self.limits),
-            Form::Stop => self.bank.stops(input - self.last.slip, self.limits),
-        };
-        (self.elastic * input + output, self.elastic + tangent)
+        let (plays, moved) = self.bank.plays(input, self.limits);
+        match self.operators.form {
+            Form::Play => (self.elastic * input + plays, self.elastic + moved),
+            Form::Stop => {
+                let resting = self.elastic + self.stopped;
+                (resting * input - plays, resting - moved)
+            }
+        }
     }
 
     /// Takes one sample: the true input channel of the form, force [N] or displacement [m].
@@ -306,10 +318,9 @@ impl<'a> March<'a> {
 
     fn accept(&mut self, time: f64, step: f64, answer: (f64, f64, f64, f64)) {
         let (slip, force, displacement, velocity) = answer;
-        let dissipated = match self.operators.form {
-            Form::Play if self.counts_energy => self.bank.slid_plays(self.limits),
-            Form::Stop if self.counts_energy => self.bank.slid_stops(slip - self.last.slip),
-            _ => 0.0,
+        let dissipated = match self.counts_energy {
+            true => self.bank.slid_plays(self.limits),
+            false => 0.0,
         };
         self.bank.accept();
         let slip_rate = if step > 0.0 {
