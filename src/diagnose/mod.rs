@@ -126,8 +126,9 @@ const MANY: usize = 30_000;
 const TAKES: f64 = 0.25;
 
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
-/// structure in it: without, the noise is larger than it was taken for.
-fn sober(bench: &Bench, found: Found) -> Found {
+/// structure in it: without, the noise is larger than it was taken for. Several that one law outside the catalogue stands for
+/// are taken back as well.
+fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
     let predictions = found.best.predict(&bench.train);
     let left = structure(&bench.train, &predictions, &bench.noise);
@@ -135,7 +136,7 @@ fn sober(bench: &Bench, found: Found) -> Found {
     let noise = rows * bench.most_left().unwrap_or(1.0);
     let beyond = (found.baseline.misfit - noise).max(left.share * rows);
     let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
-    if takes_little && left.is_seen() {
+    if takes_little && left.is_seen() || outsiders::one_does_it_all(bench, &found, timed) {
         return Found {
             best: found.baseline.clone(),
             rivals: Vec::new(),
@@ -152,8 +153,9 @@ fn assemble(
     found: Found,
     against: Vec<String>,
 ) -> Result<(Findings, Found, Fit), JointError> {
+    let timed = records.iter().all(|r| r.time.is_some());
     let (found, whole_base) = rayon::join(
-        || sober(bench, found).smoothed(bench),
+        || sober(bench, found, timed).smoothed(bench),
         || smoothed(&bench.whole, &baseline(&bench.whole)),
     );
     let before = found.baseline.predict(&bench.train);
@@ -181,7 +183,6 @@ fn assemble(
         false => f64::INFINITY,
     };
     let named = !whole.effects.is_empty();
-    let timed = records.iter().all(|r| r.time.is_some());
     let of_before = |share: f64| match structure_before.share > 0.0 {
         true => (share / structure_before.share).clamp(0.0, 1.0),
         false => 0.0,

@@ -43,6 +43,24 @@ pub fn outsiders(bench: &Bench, found: &Found, timed: bool) -> Vec<String> {
         .collect()
 }
 
+/// True where one law outside the catalogue does alone what takes several causes, and better by as much as a cause has to
+/// bring: what they have in common is its work.
+pub fn one_does_it_all(bench: &Bench, found: &Found, timed: bool) -> bool {
+    let set = &found.best.effects;
+    if set.len() < 2 {
+        return false;
+    }
+    OUTSIDE.par_iter().any(|one| {
+        let usable = timed || !one.needs_time();
+        let passes = |a: &Acting| one.passes_for().contains(&a.effect.name());
+        if !usable || !set.iter().any(passes) {
+            return false;
+        }
+        let alone = fitted(bench, &found.baseline, *one);
+        alone.is_some_and(|fit| likelier_by(bench, &fit, &found.best) > alarm(&bench.train))
+    })
+}
+
 /// What is said of one law in the place of one of the causes, or of none.
 fn in_place_of(
     bench: &Bench,
@@ -60,11 +78,6 @@ fn in_place_of(
         false => refit(train, best, others),
     };
     let fit = fitted(bench, &start, one)?;
-    let scale = dispersion(train, best).min(dispersion(train, &fit));
-    let unlikely = |fit: &Fit| {
-        let free: usize = fit.effects.iter().map(Acting::free).sum();
-        fit.misfit / scale + penalty(train, free)
-    };
     // A law that is to be named in no other's place has to prove itself as a cause has.
     let margin = if named.is_some() { 0.0 } else { alarm(train) };
     let values = &fit.effect(one.name())?.values;
@@ -78,8 +91,19 @@ fn in_place_of(
         });
     let said: Vec<String> = said.collect();
     let place = named.map_or_else(String::new, |name| format!("{name}: "));
-    (unlikely(&fit) + margin < unlikely(best))
+    (likelier_by(bench, &fit, best) > margin)
         .then(|| format!("{place}{} ({})", one.words(), said.join(", ")))
+}
+
+/// Evidence for one fit against another.
+fn likelier_by(bench: &Bench, one: &Fit, other: &Fit) -> f64 {
+    let train = &bench.train;
+    let scale = dispersion(train, one).min(dispersion(train, other));
+    let unlikely = |fit: &Fit| {
+        let free: usize = fit.effects.iter().map(Acting::free).sum();
+        fit.misfit / scale + penalty(train, free)
+    };
+    unlikely(other) - unlikely(one)
 }
 
 /// The best fit with a law beside a set, where its values are no cause's.

@@ -14,7 +14,7 @@ pub(super) struct Bonds {
 }
 
 impl Bonds {
-    /// Virgin operators, `32 × groups` of them, that hold more by this share while they rest.
+    /// Virgin operators, `LANES × groups` of them, that hold more by this share while they rest.
     pub fn new(excess: f64, groups: usize) -> Bonds {
         Bonds {
             excess,

@@ -18,6 +18,7 @@ pub mod program;
 mod purpose;
 pub mod separability;
 mod shape;
+mod standing;
 
 pub use correction::Correction;
 pub use dummy::Dummy;

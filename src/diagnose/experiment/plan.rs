@@ -1,11 +1,10 @@
 //! A program for open questions, and how far it would settle each of them.
 
 use super::answered::within;
-use super::design::{
-    BLOCKS, BLOCKS_TO_SHOW, Chosen, Design, Question, Standing, least, program, refitted,
-};
+use super::design::{BLOCKS, BLOCKS_TO_SHOW, Chosen, Design, Question, program, refitted};
 use super::limits::{Limits, rigs};
 use super::program::Rig;
+use super::standing::{Standing, least};
 use crate::causes::Cause;
 use crate::diagnose::prepare::Bench;
 use crate::identify::{Fit, Problem};
