@@ -35,8 +35,8 @@ impl Investigation {
     /// True where the causes that were found, or another one alone, leave less beside a drive that does otherwise
     /// between its samples: what joints without any cause leave tells little where a cause does much.
     ///
-    /// Another cause is asked for where the drive is the rarer one, or where what was found leaves structure. Where what is
-    /// left beside a rarer drive was taken for noise, one cause less that leaves as much is enough.
+    /// Another cause is asked for where the drive is the rarer one, or where what was found leaves structure; without
+    /// asking, a rarer drive is compared where what it leaves was taken for noise.
     fn suits_another_drive(&self, timed: bool) -> bool {
         let best = &self.found.best;
         if best.effects.is_empty() {
@@ -44,29 +44,22 @@ impl Investigation {
         }
         let mut train = self.bench.train.clone();
         let straight = train.records.iter().any(|r| r.between.straight);
+        if straight && !self.bench.noise_is_repeated() {
+            return true;
+        }
         let form = train.operators.form;
         for record in &mut train.records {
             record.between.straight = !record.between.straight;
             record.look_between(form);
         }
-        let alarm = ALARM * self.dispersion();
-        let bound = best.misfit - alarm;
+        let bound = best.misfit - ALARM * self.dispersion();
         if refit_below(&train, best, best.effects.clone(), bound).misfit < bound {
             return true;
         }
         if !straight && !leaves_structure(&self.bench.train, best) {
             return false;
         }
-        let mut fewer = best.effects.len() as f64;
-        if !straight || self.bench.noise_is_repeated() {
-            fewer = 0.0;
-        }
-        let plain = baseline(&train);
-        if plain.misfit < bound + fewer * alarm {
-            return true;
-        }
-        let bound = bound + (fewer - 1.0).max(0.0) * alarm;
-        let effort = (Effort::Full, bound);
+        let (plain, effort) = (baseline(&train), (Effort::Full, bound));
         let alone = trials(&train, &self.bench.scale, timed, &plain, effort);
         one_leaves(&alone, bound)
     }

@@ -98,7 +98,7 @@ OTHERS = {
     },
     "rate_dependent_friction": {"gain": 0.01, "reference_rate": 1e-5, "memory": 0.01},
     "velocity_weakening": {"drop": 0.05, "stribeck_rate": 1e-3, "memory": 0.01, "exponent": 0.8},
-    "static_friction_drop": {"excess": 0.1, "breakaway_distance": 0.0},
+    "static_friction_drop": {"excess": 0.1, "breakaway_distance": 0.0, "sharpness": 2.0},
     "creep": {"compliance": 2e-9, "time_constant": 0.05, "faster": 0.5, "slower": 0.5},
 }
 EVERY = CAUSES + [{"name": name, "parameters": values} for name, values in OTHERS.items()]
