@@ -32,15 +32,20 @@ pub fn outsiders(bench: &Bench, found: &Found, timed: bool) -> Vec<String> {
         true => vec![None],
         false => (0..best.effects.len()).map(Some).collect(),
     };
-    let tried: Vec<(Option<usize>, &dyn Outsider)> = OUTSIDE
-        .iter()
-        .filter(|one| timed || !one.needs_time())
-        .flat_map(|one| places.iter().map(|place| (*place, *one)))
+    let tried: Vec<(Option<usize>, &dyn Outsider)> = usable(timed)
+        .into_iter()
+        .flat_map(|one| places.iter().map(move |place| (*place, one)))
         .collect();
     tried
         .par_iter()
         .filter_map(|(place, one)| in_place_of(bench, found, (*place, *one)))
         .collect()
+}
+
+/// Laws outside the catalogue that records tell anything of.
+fn usable(timed: bool) -> Vec<&'static dyn Outsider> {
+    let all = OUTSIDE.iter().copied();
+    all.filter(|one| timed || !one.needs_time()).collect()
 }
 
 /// True where one law outside the catalogue does alone what takes several causes, and better by as much as a cause has to
@@ -50,13 +55,12 @@ pub fn one_does_it_all(bench: &Bench, found: &Found, timed: bool) -> bool {
     if set.len() < 2 {
         return false;
     }
-    OUTSIDE.par_iter().any(|one| {
-        let usable = timed || !one.needs_time();
-        let passes = |a: &Acting| one.passes_for().contains(&a.effect.name());
-        if !usable || !set.iter().any(passes) {
-            return false;
-        }
-        let alone = fitted(bench, &found.baseline, *one);
+    let passes = |one: &&dyn Outsider| {
+        let passes_for = one.passes_for();
+        set.iter().any(|a| passes_for.contains(&a.effect.name()))
+    };
+    usable(timed).into_par_iter().filter(passes).any(|one| {
+        let alone = fitted(bench, &found.baseline, one);
         alone.is_some_and(|fit| likelier_by(bench, &fit, &found.best) > alarm(&bench.train))
     })
 }

@@ -287,7 +287,8 @@ mod tests {
     /// every operator.
     #[test]
     fn plays_whose_limits_never_move_need_not_all_be_asked() {
-        let mut noise = crate::record::noise::tests::drawn(20261126);
+        let mut drawn = crate::record::noise::tests::drawn(20261126);
+        let mut noise = || 2.0 * drawn() - 1.0;
         let operators = || (1..=40).map(|j| (0.1 * f64::from(j), 1.0 + f64::from(j * j % 7)));
         let (mut all, mut still) = (Bank::new(operators()), Bank::new(operators()).still());
         let limits = (1.0, 1.0);

@@ -16,7 +16,8 @@ const FAR: f64 = 10.0;
 ///
 /// That of least squares, inflated as [`Linearised::inflation`] says, and with it the move that a
 /// grid of half the spacing gives the value, to first order: the grid is nothing that the data
-/// chose. A value that hardly shows moves the others by what [`FAR`] times its size does at most. Checked, over hundreds of drawn cases, by the scorecard's coverage.
+/// chose. A value that hardly shows moves the others by what [`FAR`] times its size does at most. Checked, over
+/// hundreds of drawn cases, by the scorecard's coverage, and by the test below.
 pub fn scatter(problem: &Problem, fit: &Fit) -> Vec<Vec<f64>> {
     let effects = fit.effects.iter();
     let mut deviations: Vec<Vec<f64>> = effects
@@ -148,7 +149,7 @@ mod tests {
         };
         let mut problem = Problem::new(Form::Play, &[record]);
         let weights = problem.records.iter_mut().flat_map(|r| &mut r.weight);
-        weights.for_each(|w| *w = spread.powi(-2));
+        weights.for_each(|w| *w = 1.0 / spread);
         let fit = refit(&problem, &baseline(&problem), vec![clip]);
         let [of_level, of_kappa] = scatter(&problem, &fit)[0][..] else {
             unreachable!("the clip has two values")

@@ -319,7 +319,7 @@ impl<'a> March<'a> {
     fn accept(&mut self, time: f64, step: f64, answer: (f64, f64, f64, f64)) {
         let (slip, force, displacement, velocity) = answer;
         let counted = self.counts_energy;
-        let dissipated = counted.then(|| self.bank.slid_plays(self.limits));
+        let dissipated = counted.then(|| self.bank.slid_plays(self.limits).max(0.0));
         self.bank.accept();
         let slip_rate = if step > 0.0 {
             (slip - self.last.slip) / step
@@ -340,7 +340,7 @@ impl<'a> March<'a> {
             velocity: rate,
             slip,
             slip_rate,
-            dissipation: self.last.dissipation + dissipated.map_or(0.0, |d| d.max(0.0)),
+            dissipation: self.last.dissipation + dissipated.unwrap_or_default(),
         };
         for (acting, memory) in self.effects.iter().zip(&mut self.memories) {
             acting.effect.remember(&acting.values, &self.last, memory);
