@@ -12,9 +12,10 @@ const LITTLE: f64 = 10.0;
 /// The baseline on a grid adapted to it, as long as that lowers the misfit.
 pub(super) fn fitted(mut problem: Problem) -> (Problem, Fit) {
     let mut fit = baseline(&problem);
+    let cells = problem.operators.edges.len();
     for _ in 0..3 {
         let mut finer = problem.clone();
-        finer.operators = problem.operators.adapted(&fit.coefficients);
+        finer.operators = problem.operators.adapted(&fit.coefficients, cells);
         let refitted = baseline(&finer);
         if refitted.misfit >= fit.misfit {
             break;
@@ -25,11 +26,22 @@ pub(super) fn fitted(mut problem: Problem) -> (Problem, Fit) {
 }
 
 /// Halves the spacing of the grid where that takes from the baseline what is evident: a joint that slips all at once has
-/// corners which no coarse one has.
+/// corners which no coarse one has. As many cells crowd where a grid of a quarter of the spacing shows such a corner, if
+/// they leave less so.
 pub(super) fn resolve(bench: &mut Bench) {
     let coarse = baseline(&bench.train);
-    let (fine, _) = finer(&bench.train, &coarse.coefficients);
-    let refitted = baseline(&fine);
+    let (half, _) = finer(&bench.train, &coarse.coefficients);
+    let halved = baseline(&half);
+    let (quarter, _) = finer(&half, &halved.coefficients);
+    let quartered = baseline(&quarter);
+    let cells = half.operators.edges.len();
+    let mut crowded = half.clone();
+    crowded.operators = quarter.operators.adapted(&quartered.coefficients, cells);
+    let at_corners = baseline(&crowded);
+    let (fine, refitted) = match at_corners.misfit < halved.misfit {
+        true => (crowded, at_corners),
+        false => (half, halved),
+    };
     if coarse.misfit - refitted.misfit > ALARM * dispersion(&fine, &refitted) {
         bench.whole.operators.clone_from(&fine.operators);
         bench.train = fine;
@@ -184,6 +196,55 @@ mod tests {
 
     static MENDS: Adds = Adds(sharp);
     static SOUNDS: Adds = Adds(tone);
+
+    /// What cells of half the spacing leave, and those of the bench, of a joint of which half slips at one threshold.
+    fn at_once(threshold: f64) -> [f64; 2] {
+        let displacement: Vec<f64> = (0..6000)
+            .map(|i| 2.1 * (0.0105 * f64::from(i)).sin())
+            .collect();
+        let limits: Vec<f64> = (0..20)
+            .map(|j| (0.06 * f64::from(j)).min(threshold))
+            .collect();
+        let mut reached = vec![0.0_f64; limits.len()];
+        let mut before = 0.0;
+        let mut noise = noise::tests::drawn(20261126);
+        let mut answer = |u: f64| {
+            for (d, limit) in reached.iter_mut().zip(&limits) {
+                *d = (*d + u - before).clamp(-limit, *limit);
+            }
+            let at_once = 20.0 * reached[limits.len() - 1];
+            before = u;
+            reached.iter().sum::<f64>() + at_once + 0.02 * (noise() - 0.5)
+        };
+        let record = Record {
+            name: "at once".to_string(),
+            time: Some((0..6000).map(|i| 0.0025 * f64::from(i)).collect()),
+            force: displacement.iter().map(|u| answer(*u)).collect(),
+            displacement,
+            ..Record::default()
+        };
+        let bench = prepare(
+            Form::Stop,
+            std::slice::from_ref(&record),
+            &[Beginning::default()],
+        );
+        let (problem, coarse) = fitted(Problem::new(Form::Stop, &[record]));
+        let (mut half, _) = finer(&problem, &coarse.coefficients);
+        assert_eq!(
+            bench.whole.operators.edges.len(),
+            half.operators.edges.len()
+        );
+        half.records.clone_from(&bench.whole.records);
+        [&half, &bench.whole].map(|problem| baseline(problem).misfit / problem.rows() as f64)
+    }
+
+    #[test]
+    fn cells_crowd_where_a_joint_slips_all_at_once() {
+        for threshold in [1.03, 1.071, 1.137] {
+            let [half, crowded] = at_once(threshold);
+            assert!(crowded < 0.97 * half, "{threshold}: {crowded} of {half}");
+        }
+    }
 
     #[test]
     fn what_mends_the_grid_goes_and_what_acts_stays() {

@@ -2,6 +2,7 @@
 
 use super::forms::at_other_places;
 use super::gridded::stays_on_a_finer_grid;
+use super::loud::heard;
 use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
@@ -106,7 +107,9 @@ impl Grow<'_> {
                 .map(|(t, prospect)| (t, t.evidence + prospect.held_out_evidence(), prospect))
                 .filter(|(_, evidence, prospect)| *evidence >= least && prospect.holds())
                 .filter(|(t, evidence, _)| {
-                    stays_on_a_finer_grid(&self.bench.train, current, (*evidence, &t.fit))
+                    let little = (*evidence, &t.fit);
+                    heard(self.bench, current, little) >= least
+                        && stays_on_a_finer_grid(&self.bench.train, current, little)
                 })
                 .max_by(|(.., a), (.., b)| a.total().total_cmp(&b.total()))
                 .map(|(t, ..)| t),

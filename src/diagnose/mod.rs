@@ -24,6 +24,7 @@ pub mod judged_channel;
 
 pub mod left_out;
 pub mod levels;
+mod loud;
 mod mains_phase;
 mod outsiders;
 mod places;

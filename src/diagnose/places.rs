@@ -1,6 +1,7 @@
 //! The place of each cause in a set of several: who else would do there, beside the others.
 
 use super::prepare::Bench;
+use super::probability::LAW;
 use super::tested::{Prospect, beyond_unseen};
 use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trials};
 use super::verdict::NEGLIGIBLE;
@@ -139,11 +140,17 @@ impl Place {
 }
 
 /// Misfit below which a cause counts as good as the one named, which has `brought` so much.
+///
+/// The law of a cause is only nearly that of the joint measured, so a strong effect tells two causes apart no better
+/// than laws are true: differences count over the temperature that [`LAW`] makes. What the named cause leaves beyond
+/// the scatter of noise bounds it, for a law that leaves nothing is right, and so does what the test of structure would
+/// not see, [`NEGLIGIBLE`] of the noise.
 fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
     let scale = dispersion(problem, best);
     let rows = problem.rows() as f64;
     let left = beyond_scatter(problem, best).max(0.0);
-    let unseen = left.min(NEARLY * brought).min(NEGLIGIBLE * rows * scale);
+    let untrue = 0.5 * MARGIN * LAW * brought;
+    let unseen = left.min(untrue).min(NEGLIGIBLE * rows * scale);
     best.misfit + MARGIN * scale + unseen
 }
 
@@ -168,11 +175,7 @@ const HELD: f64 = 10.0;
 /// likeliest at λ = m, and then beyond √m standard deviations: seven in a thousand.
 const MARGIN: f64 = 6.0;
 
-/// Share of what the named cause brings by which a rival may fall short of it and still be listed:
-/// the law of a cause is only nearly that of the joint measured, so a strong effect tells two
-/// causes apart no better than their laws are true. What the named cause leaves beyond the scatter of
-/// noise bounds it, for a law that leaves nothing is right, and so does what the test of structure
-/// would not see, [`NEGLIGIBLE`] of the noise.
+/// Share of what the named cause brings below which what is left is no second one.
 pub const NEARLY: f64 = 0.01;
 
 /// Standard deviations by which a sum of squares of noise alone may exceed its mean.

@@ -221,6 +221,13 @@ impl Bench {
     }
 }
 
+/// The lesser of what repeated cycles of a channel and of a residual tell: where cycles are sampled at other phases, the
+/// first holds what interpolation misses of a bent response, the second what noise of the drive does to a model.
+fn calmer(channel: Option<Noise>, residual: Option<Noise>) -> Option<Noise> {
+    let told = [channel, residual].into_iter().flatten();
+    told.min_by(|a, b| a.deviation.total_cmp(&b.deviation))
+}
+
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
 /// by the other records, else from the fastest variations of the baseline's residual.
 fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
@@ -241,7 +248,7 @@ fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
         .enumerate()
         .map(|(k, residual)| {
             let (input, judged) = (problem.channels(k).0, &hum_free[k]);
-            let repeated = from_repeats(input, judged);
+            let repeated = calmer(from_repeats(input, judged), from_repeats(input, residual));
             let found = repeated.or_else(|| from_steady_changes(input, residual));
             found.filter(|n| !n.holds_a_change(residual))
         })
@@ -261,4 +268,42 @@ fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
             noise
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::noise::tests::drawn;
+
+    /// Cycles of 37.3 samples of a bent spring: no cycle is sampled like the one before, and what lies between samples is
+    /// not straight.
+    #[test]
+    fn what_interpolation_misses_of_a_bent_response_is_no_noise() {
+        let mut noise = drawn(20261126);
+        let time: Vec<f64> = (0..1500).map(|i| 0.01 * f64::from(i)).collect();
+        let phase = |i: usize| i as f64 * std::f64::consts::TAU / 37.3;
+        let loud = 3e-4;
+        let mut reached = [0.0_f64; 20];
+        let mut before = 0.0;
+        let mut answer = |u: f64| {
+            for (j, d) in reached.iter_mut().enumerate() {
+                let limit = 0.05 * (j + 1) as f64;
+                *d = (*d + u - before).clamp(-limit, limit);
+            }
+            before = u;
+            reached.iter().sum::<f64>() / 20.0 + loud * 12.0_f64.sqrt() * (noise() - 0.5)
+        };
+        let displacement: Vec<f64> = (0..1500).map(|i| 1.1 * phase(i).sin()).collect();
+        let record = Record {
+            name: "bent".to_string(),
+            force: displacement.iter().map(|u| answer(*u)).collect(),
+            displacement,
+            time: Some(time),
+            ..Record::default()
+        };
+        let raw = from_repeats(&record.displacement, &record.force).unwrap();
+        let bench = prepare(Form::Stop, &[record], &[Beginning::default()]);
+        let told = bench.noise[0].deviation;
+        assert!(told < 0.9 * raw.deviation, "{told} of {raw:?}");
+    }
 }

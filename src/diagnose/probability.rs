@@ -6,7 +6,7 @@ use super::search::Found;
 /// to one over it and no further, however long the record.
 ///
 /// Found, with [`LEFT`], on drawn cases of a generator whose laws are not the catalogue's.
-const LAW: f64 = 0.001;
+pub(super) const LAW: f64 = 0.001;
 
 /// Share of the explainable misfit left by the named causes at which something that is not in the
 /// catalogue is as probable as they are.

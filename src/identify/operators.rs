@@ -142,13 +142,13 @@ impl Operators {
             .flat_map(|(cell, c)| cell.iter().map(move |&r| (r, c / SHARED as f64)))
     }
 
-    /// A grid of as many thresholds, spread so that each cell holds as much of the cube root of the
+    /// A grid of so many cells, spread so that each cell holds as much of the cube root of the
     /// identified density: a piecewise-linear virgin curve errs by spacing² × curvature, and its
     /// squared error over the range is least when spacing³ × curvature is everywhere the same.
     ///
     /// `coefficients` are those fitted on this grid, the elastic one first. A third of the cells
     /// stays where it was, so that no part of the range is left without thresholds.
-    pub fn adapted(&self, coefficients: &[f64]) -> Operators {
+    pub fn adapted(&self, coefficients: &[f64], cells: usize) -> Operators {
         let n = self.edges.len();
         let Some(&top) = self.edges.last() else {
             return self.clone();
@@ -170,12 +170,12 @@ impl Operators {
         }
         let kept = 1.0 / 3.0;
         let mut reached = 0.0;
-        let mut edges = Vec::with_capacity(n);
+        let mut edges = Vec::with_capacity(cells);
         let mut next = 1;
         for (j, own) in density.iter().enumerate() {
             let share = kept / n as f64 + (1.0 - kept) * own * width(j) / total;
-            while next <= n && (next as f64 / n as f64) <= reached + share + 1e-12 {
-                let fraction = ((next as f64 / n as f64) - reached) / share;
+            while next <= cells && (next as f64 / cells as f64) <= reached + share + 1e-12 {
+                let fraction = ((next as f64 / cells as f64) - reached) / share;
                 edges.push((edge(j) + fraction * width(j)).min(top));
                 next += 1;
             }

@@ -21,8 +21,8 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Judges a χ² on so many samples: beyond [`TOLD`], what a law that is only nearly true may
-    /// leave does not count, as it does not in the search.
+    /// Judges a χ² on so many samples: beyond [`TOLD`], what a law that is only nearly true may leave does not count.
+    /// It is granted more than in a search, [`NEARLY`] of what the cause brings: a program is to settle its question.
     pub fn new(lambda: f64, alone: f64, rows: f64) -> Standing {
         let alone = alone.max(lambda);
         Standing {
