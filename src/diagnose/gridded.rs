@@ -26,25 +26,34 @@ pub(super) fn fitted(mut problem: Problem) -> (Problem, Fit) {
 }
 
 /// Halves the spacing of the grid where that takes from the baseline what is evident: a joint that slips all at once has
-/// corners which no coarse one has. As many cells crowd where a grid of a quarter of the spacing shows such a corner, if
-/// they leave less so.
+/// corners which no coarse one has.
 pub(super) fn resolve(bench: &mut Bench) {
     let coarse = baseline(&bench.train);
     let (half, _) = finer(&bench.train, &coarse.coefficients);
     let halved = baseline(&half);
-    let (quarter, _) = finer(&half, &halved.coefficients);
-    let quartered = baseline(&quarter);
-    let cells = half.operators.edges.len();
-    let mut crowded = half.clone();
-    crowded.operators = quarter.operators.adapted(&quartered.coefficients, cells);
-    let at_corners = baseline(&crowded);
-    let (fine, refitted) = match at_corners.misfit < halved.misfit {
-        true => (crowded, at_corners),
+    let beyond = coarse.misfit - bench.train.rows() as f64;
+    let (fine, refitted) = match beyond < LITTLE * ALARM {
+        true => at_corners(half, halved),
+        // More than any grid is wrong by: cells would crowd where something else acts.
         false => (half, halved),
     };
     if coarse.misfit - refitted.misfit > ALARM * dispersion(&fine, &refitted) {
         bench.whole.operators.clone_from(&fine.operators);
         bench.train = fine;
+    }
+}
+
+/// As many cells, crowded where a grid of half their spacing shows a corner, if they leave less.
+fn at_corners(grid: Problem, fit: Fit) -> (Problem, Fit) {
+    let (fine, _) = finer(&grid, &fit.coefficients);
+    let seen = baseline(&fine).coefficients;
+    let cells = grid.operators.edges.len();
+    let mut crowded = grid.clone();
+    crowded.operators = fine.operators.adapted(&seen, cells);
+    let refitted = baseline(&crowded);
+    match refitted.misfit < fit.misfit {
+        true => (crowded, refitted),
+        false => (grid, fit),
     }
 }
 
