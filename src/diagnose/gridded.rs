@@ -31,7 +31,7 @@ pub(super) fn resolve(bench: &mut Bench) {
     let coarse = baseline(&bench.train);
     let (half, _) = finer(&bench.train, &coarse.coefficients);
     let halved = baseline(&half);
-    let beyond = coarse.misfit - bench.train.rows() as f64;
+    let beyond = halved.misfit - bench.train.rows() as f64;
     let (fine, refitted) = match beyond < LITTLE * ALARM {
         true => at_corners(half, halved),
         // More than any grid is wrong by: cells would crowd where something else acts.
