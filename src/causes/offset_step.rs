@@ -129,15 +129,12 @@ impl Cause for OffsetStep {
         true
     }
     /// What moves for as long as a jump may take at most may have drifted; a specimen that settles does so while the force
-    /// is higher than it ever was.
+    /// is higher than it ever was, and a spring that gave way by so much reads as a load cell that jumped.
     fn double(&self, values: &[f64], truth: &Trajectory) -> Option<&'static str> {
         if values[2] <= SLOWEST {
             return Some(
                 "the reading moved as slowly as a jump may, so it may have drifted for a while",
             );
-        }
-        if values[0] == 0.0 {
-            return None;
         }
         let (middle, width) = jump(values, truth)?;
         let (start, end) = (truth.time.first()?, truth.time.last()?);
@@ -273,6 +270,7 @@ mod tests {
             time,
         };
         assert!(OffsetStep.double(&[1e-6, 0.2, 6.0, 0.0], &truth).is_some());
+        assert!(OffsetStep.double(&[0.0, 0.2, 6.0, 1.0], &truth).is_some());
         assert_eq!(OffsetStep.double(&[1e-6, 5.2, 6.0, 0.0], &truth), None);
         // A drift for a while.
         assert!(

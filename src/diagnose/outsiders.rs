@@ -2,6 +2,7 @@
 
 use super::growing::leaves_structure;
 use super::prepare::Bench;
+use super::refinements::better;
 use super::search::Found;
 use super::trials::{SHAPES, alarm, dispersion, penalty};
 use crate::causes::find;
@@ -121,7 +122,11 @@ fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider) -> Option<Fit> {
     let fits = scored.into_iter().take(SHAPES).map(|score| {
         let mut effects = start.effects.clone();
         effects.push(score.acting);
-        refit(&bench.train, start, effects)
+        let fit = refit(&bench.train, start, effects);
+        let place = fit.effects.len() - 1;
+        let refined = one.refined(&fit.effects[place].values, &bench.scale);
+        let nearby = fit.misfit;
+        better(&bench.train, fit, (place, refined), nearby)
     });
     let own = |fit: &Fit| {
         let acting = fit.effect(one.name());

@@ -33,9 +33,14 @@ pub(super) fn refined(
     }
 }
 
-/// The refit from other values of one of the causes, where it brings more than they cost; they begin smaller where
+/// The refit from other values of one of its effects, where it brings more than they cost; they begin smaller where
 /// they leave more than `most`.
-fn better(problem: &Problem, fit: Fit, (place, values): (usize, Vec<f64>), most: f64) -> Fit {
+pub(super) fn better(
+    problem: &Problem,
+    fit: Fit,
+    (place, values): (usize, Vec<f64>),
+    most: f64,
+) -> Fit {
     let before = fit.effects[place].free();
     let mut effects = fit.effects.clone();
     effects[place].values = values;

@@ -13,6 +13,10 @@ pub trait Outsider: Effect {
     fn passes_for(&self) -> &'static [&'static str];
     /// Where a search starts, as [`crate::causes::Cause::starts`].
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
+    /// The values with refinements of the law begun; the same where it has none.
+    fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
+        values.to_vec()
+    }
     /// False where the fitted values are those of a cause.
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool;
     /// What it may be, as a clause.

@@ -3,13 +3,14 @@
 use super::Outsider;
 use crate::causes::Scale;
 use crate::joint::effect::{Effect, Place, Response, Situation};
+use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
 
-/// A lasting displacement in the load path, `s = w c max(F_peak − F_0, 0)`, `F_peak` the largest |F| so far, the
-/// present one included, and w the side of the first that was beyond `F_0`.
+/// A lasting displacement in the load path and a compliance that is lost with it, `s = (w c − b F) max(F_peak − F_0, 0)`,
+/// `F_peak` the largest |F| so far, the present one included, and w the side of the first that was beyond `F_0`.
 pub struct Settling;
 
-static PARAMETERS: [Parameter; 2] = [
+static PARAMETERS: [Parameter; 3] = [
     Parameter {
         name: "set",
         symbol: "c",
@@ -29,6 +30,16 @@ static PARAMETERS: [Parameter; 2] = [
         vanishes_at: None,
         neutral: None,
         meaning: "peak force that the specimen bears without settling",
+    },
+    Parameter {
+        name: "stiffening",
+        symbol: "b",
+        unit: "m/N2",
+        lower: -1.0,
+        upper: 1.0,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "compliance that is lost per newton of peak force beyond the threshold, as of surfaces that bed in",
     },
 ];
 
@@ -63,13 +74,14 @@ impl Effect for Settling {
             true => force.signum(),
             false => memory[1],
         };
-        let set = |peak: f64| side * values[0] * (peak - values[1]).max(0.0);
+        let beyond = (memory[0].max(force.abs()) - values[1]).max(0.0);
+        let per_newton = side * values[0] - values[2] * force;
         let grows = force.abs() > memory[0].max(values[1]);
         Response {
-            value: set(memory[0].max(force.abs())),
+            value: per_newton * beyond,
             slope: match grows {
-                true => side * force.signum() * values[0],
-                false => 0.0,
+                true => force.signum() * per_newton - values[2] * beyond,
+                false => -values[2] * beyond,
             },
             damping: 0.0,
         }
@@ -89,9 +101,21 @@ impl Outsider for Settling {
         ]
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
-        let start =
-            |share: &f64| vec![0.01 * scale.displacement / scale.force, share * scale.force];
+        let start = |share: &f64| {
+            vec![
+                0.01 * scale.displacement / scale.force,
+                share * scale.force,
+                0.0,
+            ]
+        };
         STARTS.iter().map(start).collect()
+    }
+    fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
+        let stiffening = match values[2] == 0.0 {
+            true => 0.01 * scale.displacement / square(scale.force),
+            false => values[2],
+        };
+        vec![values[0], values[1], stiffening]
     }
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool {
         values[1] > HIGH * scale.force
@@ -110,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_specimen_settles_with_its_highest_peak_and_stays() {
-        let values = [1e-6, 10.0];
+        let values = [1e-6, 10.0, 0.0];
         let mut memory = [0.0; 2];
         let at = |force: f64, memory: &[f64]| Settling.in_series(&values, force, 0.1, memory);
         assert_eq!(at(9.0, &memory).value, 0.0);
@@ -134,5 +158,26 @@ mod tests {
             };
             Settling.remember(&values, &now, &mut memory);
         }
+    }
+
+    #[test]
+    fn what_beds_in_is_stiffer_by_as_much_as_it_settled() {
+        let values = [1e-6, 10.0, 1e-8];
+        let mut memory = [0.0; 2];
+        let bedded = Situation {
+            force: 14.0,
+            ..Situation::default()
+        };
+        Settling.remember(&values, &bedded, &mut memory);
+        let at = |force: f64| Settling.in_series(&values, force, 0.1, &memory);
+        for force in [-13.0, -2.0, 5.0, 13.9] {
+            let response = at(force);
+            let settled = 4e-6 - 4e-8 * force;
+            assert!((response.value - settled).abs() < 1e-18, "{force}");
+            assert!((response.slope + 4e-8).abs() < 1e-18, "{force}");
+        }
+        // Beyond the peak it settles on, with the slope of what it answers.
+        let ahead = (at(16.001).value - at(15.999).value) / 0.002;
+        assert!((at(16.0).slope - ahead).abs() < 1e-12, "{ahead}");
     }
 }
