@@ -83,7 +83,7 @@ pub fn stays_on_a_finer_grid(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::diagnose::prepare::prepare;
     use crate::identify::Form;
@@ -103,18 +103,23 @@ mod tests {
         meaning: "of what the load cell adds",
     }];
 
-    /// A joint as sharp as no grid has it: sliders that let go nearly at once, between two edges.
-    fn sharp(displacement: &[f64]) -> Vec<f64> {
-        let mut reached = [0.0_f64; 3];
+    /// Force of sliders of unit stiffness that let go at these displacements.
+    pub fn slid(limits: &[f64], displacement: &[f64]) -> Vec<f64> {
+        let mut reached = vec![0.0_f64; limits.len()];
         let mut before = 0.0;
         let moved = displacement.iter().map(|&u| {
-            for (d, limit) in reached.iter_mut().zip([1.20, 1.23, 1.26]) {
-                *d = (*d + u - before).clamp(-limit, limit);
+            for (d, limit) in reached.iter_mut().zip(limits) {
+                *d = (*d + u - before).clamp(-limit, *limit);
             }
             before = u;
             reached.iter().sum()
         });
         moved.collect()
+    }
+
+    /// A joint as sharp as no grid has it: sliders that let go nearly at once, between two edges.
+    fn sharp(displacement: &[f64]) -> Vec<f64> {
+        slid(&[1.20, 1.23, 1.26], displacement)
     }
 
     fn tone(displacement: &[f64]) -> Vec<f64> {
@@ -174,21 +179,13 @@ mod tests {
         let displacement: Vec<f64> = (0..1500)
             .map(|i| 2.1 * (0.0419 * f64::from(i)).sin() * f64::from(i.min(600)) / 600.0)
             .collect();
-        let mut reached = [0.0_f64; 40];
-        let mut before = 0.0;
+        let limits: Vec<f64> = (0..40).map(|j| 0.2 + 0.05 * f64::from(j)).collect();
         let mut noise = noise::tests::drawn(20261125);
-        let mut answer = |u: f64| {
-            for (j, d) in reached.iter_mut().enumerate() {
-                let limit = 0.2 + 0.05 * j as f64;
-                *d = (*d + u - before).clamp(-limit, limit);
-            }
-            before = u;
-            reached.iter().sum::<f64>() + loud * noise()
-        };
+        let force = slid(&limits, &displacement);
         let record = Record {
             name: "spread".to_string(),
             time: Some((0..1500).map(|i| 0.01 * f64::from(i)).collect()),
-            force: displacement.iter().map(|u| answer(*u)).collect(),
+            force: force.iter().map(|f| f + loud * noise()).collect(),
             displacement,
             ..Record::default()
         };
@@ -214,21 +211,16 @@ mod tests {
         let limits: Vec<f64> = (0..20)
             .map(|j| (0.06 * f64::from(j)).min(threshold))
             .collect();
-        let mut reached = vec![0.0_f64; limits.len()];
-        let mut before = 0.0;
         let mut noise = noise::tests::drawn(20261126);
-        let mut answer = |u: f64| {
-            for (d, limit) in reached.iter_mut().zip(&limits) {
-                *d = (*d + u - before).clamp(-limit, *limit);
-            }
-            let at_once = 20.0 * reached[limits.len() - 1];
-            before = u;
-            reached.iter().sum::<f64>() + at_once + 0.02 * (noise() - 0.5)
-        };
+        let spread = slid(&limits, &displacement);
+        let at_once = slid(&[threshold], &displacement);
+        let both = spread.iter().zip(&at_once);
         let record = Record {
             name: "at once".to_string(),
             time: Some((0..6000).map(|i| 0.0025 * f64::from(i)).collect()),
-            force: displacement.iter().map(|u| answer(*u)).collect(),
+            force: both
+                .map(|(s, o)| s + 20.0 * o + 0.02 * (noise() - 0.5))
+                .collect(),
             displacement,
             ..Record::default()
         };

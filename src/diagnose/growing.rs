@@ -108,8 +108,9 @@ impl Grow<'_> {
                 .filter(|(_, evidence, prospect)| *evidence >= least && prospect.holds())
                 .filter(|(t, evidence, _)| {
                     let little = (*evidence, &t.fit);
-                    heard(self.bench, current, little) >= least
-                        && stays_on_a_finer_grid(&self.bench.train, current, little)
+                    let problem = &self.bench.train;
+                    heard(problem, current, little) >= least
+                        && stays_on_a_finer_grid(problem, current, little)
                 })
                 .max_by(|(.., a), (.., b)| a.total().total_cmp(&b.total()))
                 .map(|(t, ..)| t),

@@ -290,11 +290,10 @@ impl Investigation {
         let train = &self.bench.train;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let causes = &self.found.best.effects;
-        let of_causes: usize = causes.iter().map(Acting::free).sum();
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
         let chosen = penalty(
             train,
-            of_causes + of_beginnings + usize::from(train.wears_on),
+            self.found.best.free() + of_beginnings + usize::from(train.wears_on),
         );
         self.bench.innovations() + misfit / dispersion + chosen + causes.len() as f64 * ALARM
     }

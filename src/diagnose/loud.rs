@@ -1,10 +1,8 @@
 //! What a cause brings where the noise is louder than elsewhere: at large loads, or in what stands alone.
 
-use super::prepare::Bench;
 use super::trials::{dispersion, penalty};
 use crate::identify::weighing::Weighing;
 use crate::identify::{Fit, Problem};
-use crate::joint::effect::Acting;
 
 /// Standard errors up to which noise passes for no louder than its mean.
 const CHANCE: f64 = 2.0;
@@ -16,10 +14,8 @@ const CHANCE: f64 = 2.0;
 /// sandwich). A mean over few samples scatters by `√(2 Σ d⁴)/Σ d²` of itself, twice of which is taken off.
 ///
 /// Checked: `loud_noise_is_no_evidence`.
-pub(super) fn heard(bench: &Bench, current: &Fit, (evidence, fit): (f64, &Fit)) -> f64 {
-    let problem = &bench.train;
-    let free = |fit: &Fit| fit.effects.iter().map(Acting::free).sum::<usize>();
-    let paid = penalty(problem, free(fit).saturating_sub(free(current)));
+pub(super) fn heard(problem: &Problem, current: &Fit, (evidence, fit): (f64, &Fit)) -> f64 {
+    let paid = penalty(problem, fit.free().saturating_sub(current.free()));
     let louder = (loudness(problem, current, fit) / dispersion(problem, fit)).max(1.0);
     (evidence + paid) / louder - paid
 }
@@ -55,6 +51,7 @@ mod tests {
     use crate::diagnose::prepare::prepare;
     use crate::identify::beginning::Beginning;
     use crate::identify::{Form, baseline};
+    use crate::joint::effect::Acting;
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
@@ -89,7 +86,7 @@ mod tests {
         };
         let scale = dispersion(&bench.train, &fit);
         let paid = penalty(&bench.train, 1);
-        let heard = heard(&bench, &current, (100.0, &fit));
+        let heard = heard(&bench.train, &current, (100.0, &fit));
         (100.0 + paid) / (heard + paid) * scale
     }
 

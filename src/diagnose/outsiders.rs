@@ -104,10 +104,7 @@ fn in_place_of(
 fn likelier_by(bench: &Bench, one: &Fit, other: &Fit) -> f64 {
     let train = &bench.train;
     let scale = dispersion(train, one).min(dispersion(train, other));
-    let unlikely = |fit: &Fit| {
-        let free: usize = fit.effects.iter().map(Acting::free).sum();
-        fit.misfit / scale + penalty(train, free)
-    };
+    let unlikely = |fit: &Fit| fit.misfit / scale + penalty(train, fit.free());
     unlikely(other) - unlikely(one)
 }
 

@@ -1,7 +1,7 @@
 //! The place of each cause in a set of several: who else would do there, beside the others.
 
 use super::prepare::Bench;
-use super::probability::LAW;
+use super::probability::temperature;
 use super::tested::{Prospect, beyond_unseen};
 use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trials};
 use super::verdict::NEGLIGIBLE;
@@ -86,10 +86,7 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
 pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
     let scale = dispersion(&bench.train, best);
     let least = ALARM * scale;
-    let cost = |fit: &Fit| {
-        let free: usize = fit.effects.iter().map(Acting::free).sum();
-        scale * penalty(&bench.train, free)
-    };
+    let cost = |fit: &Fit| scale * penalty(&bench.train, fit.free());
     let own = cost(best);
     places
         .iter()
@@ -142,14 +139,14 @@ impl Place {
 /// Misfit below which a cause counts as good as the one named, which has `brought` so much.
 ///
 /// The law of a cause is only nearly that of the joint measured, so a strong effect tells two causes apart no better
-/// than laws are true: differences count over the temperature that [`LAW`] makes. What the named cause leaves beyond
+/// than laws are true: differences count over the [`temperature`] of probabilities. What the named cause leaves beyond
 /// the scatter of noise bounds it, for a law that leaves nothing is right, and so does what the test of structure would
 /// not see, [`NEGLIGIBLE`] of the noise.
 fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
     let scale = dispersion(problem, best);
     let rows = problem.rows() as f64;
     let left = beyond_scatter(problem, best).max(0.0);
-    let untrue = 0.5 * MARGIN * LAW * brought;
+    let untrue = (temperature(brought) - 1.0) * MARGIN;
     let unseen = left.min(untrue).min(NEGLIGIBLE * rows * scale);
     best.misfit + MARGIN * scale + unseen
 }
@@ -180,3 +177,32 @@ pub const NEARLY: f64 = 0.01;
 
 /// Standard deviations by which a sum of squares of noise alone may exceed its mean.
 const SCATTER: f64 = 2.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::{Form, baseline};
+    use crate::record::Record;
+
+    #[test]
+    fn a_rival_that_no_probability_supports_is_none() {
+        let displacement: Vec<f64> = (0..400_000).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            force: displacement.clone(),
+            displacement,
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Stop, &[record]);
+        let best = Fit {
+            // Beyond scatter as much as anything brings here.
+            misfit: 1.02 * problem.rows() as f64,
+            ..baseline(&problem)
+        };
+        for brought in [50.0, 5e3, 5e5] {
+            let behind = as_well(&problem, &best, brought) - best.misfit;
+            let against = 0.5 * behind / dispersion(&problem, &best);
+            assert!((-against / temperature(brought)).exp() > 0.04, "{brought}");
+            assert!(behind >= MARGIN, "{brought}");
+        }
+    }
+}

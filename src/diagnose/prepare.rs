@@ -273,6 +273,7 @@ fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::gridded::tests::slid;
     use crate::record::noise::tests::drawn;
 
     /// Cycles of 37.3 samples of a bent spring: no cycle is sampled like the one before, and what lies between samples is
@@ -283,20 +284,13 @@ mod tests {
         let time: Vec<f64> = (0..1500).map(|i| 0.01 * f64::from(i)).collect();
         let phase = |i: usize| i as f64 * std::f64::consts::TAU / 37.3;
         let loud = 3e-4;
-        let mut reached = [0.0_f64; 20];
-        let mut before = 0.0;
-        let mut answer = |u: f64| {
-            for (j, d) in reached.iter_mut().enumerate() {
-                let limit = 0.05 * (j + 1) as f64;
-                *d = (*d + u - before).clamp(-limit, limit);
-            }
-            before = u;
-            reached.iter().sum::<f64>() / 20.0 + loud * 12.0_f64.sqrt() * (noise() - 0.5)
-        };
+        let limits: Vec<f64> = (1..=20).map(|j| 0.05 * f64::from(j)).collect();
         let displacement: Vec<f64> = (0..1500).map(|i| 1.1 * phase(i).sin()).collect();
+        let quiet = slid(&limits, &displacement);
+        let mut answer = |f: &f64| f / 20.0 + loud * 12.0_f64.sqrt() * (noise() - 0.5);
         let record = Record {
             name: "bent".to_string(),
-            force: displacement.iter().map(|u| answer(*u)).collect(),
+            force: quiet.iter().map(&mut answer).collect(),
             displacement,
             time: Some(time),
             ..Record::default()

@@ -6,7 +6,7 @@ use super::search::Found;
 /// to one over it and no further, however long the record.
 ///
 /// Found, with [`LEFT`], on drawn cases of a generator whose laws are not the catalogue's.
-pub(super) const LAW: f64 = 0.001;
+const LAW: f64 = 0.001;
 
 /// Share of the explainable misfit left by the named causes at which something that is not in the
 /// catalogue is as probable as they are.
@@ -57,8 +57,13 @@ fn weighed(evidence: &[(&str, f64)], named: &[&str], left: f64) -> Vec<f64> {
 /// Weight of an evidence over that of the best.
 fn tempered(evidence: &[(&str, f64)]) -> impl Fn(f64) -> f64 {
     let best = evidence.iter().fold(0.0_f64, |most, (_, e)| most.max(*e));
-    let temperature = 1.0 + 0.5 * best * LAW;
+    let temperature = temperature(best);
     move |e: f64| (0.5 * (e - best) / temperature).exp()
+}
+
+/// What differences of evidence are divided by where a law takes so much misfit away: `T = 1 + brought LAW/2`.
+pub(super) fn temperature(brought: f64) -> f64 {
+    1.0 + 0.5 * brought * LAW
 }
 
 /// Sum of the weights of all hypotheses.

@@ -6,7 +6,6 @@ use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
 use super::trials::{ALARM, all_plausible, dispersion, penalty};
 use crate::identify::{Fit, refit};
-use crate::joint::effect::Acting;
 use crate::record::noise::independence;
 
 /// The set without the causes that gain nothing on held-out data.
@@ -47,9 +46,8 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
             _ => return fit,
         }
     }
-    let free: usize = fit.effects.iter().map(Acting::free).sum();
     let evidence = (baseline.misfit - fit.misfit) / dispersion(&bench.train, &fit)
-        - penalty(&bench.train, free);
+        - penalty(&bench.train, fit.free());
     let proven = || {
         let both = [baseline, &fit].map(|f| f.predict(&bench.train));
         let (_, interval) = ratio(bench, &both[0], &both[1]);

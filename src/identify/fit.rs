@@ -56,6 +56,11 @@ impl Fit {
         self.effects.iter().find(|a| a.effect.name() == name)
     }
 
+    /// Values of its effects that it chose, none of which is at its neutral value.
+    pub fn free(&self) -> usize {
+        self.effects.iter().map(Acting::free).sum()
+    }
+
     /// Everything that acts in a march of this fit: its effects and the spring in series.
     pub fn acting(&self) -> Vec<Acting> {
         let spring = self.series.map(series::acting);
