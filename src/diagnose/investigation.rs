@@ -168,16 +168,14 @@ impl Investigation {
     }
 
     /// True where wear that goes on from record to record explains what wear of joints made new between them does
-    /// not, beside the causes that were found or alone.
+    /// not, beside the causes that were found or alone; or alone more than those.
     pub(super) fn may_wear_on(&self) -> bool {
         let train = &self.bench.train;
         let best = &self.found.best;
-        let lasts = |a: &Acting| a.effect.lasting() > 0;
-        let wears = best.effects.iter().any(lasts);
-        let asked = train.records.len() > 1 && !train.wears_on;
-        if !asked || !(wears || leaves_structure(train, best)) {
+        if train.records.len() < 2 || train.wears_on {
             return false;
         }
+        let wears = best.effects.iter().any(|a| a.effect.lasting() > 0);
         let mut on = train.clone();
         on.wears_on = true;
         let margin = ALARM * dispersion(train, best);
@@ -185,16 +183,19 @@ impl Investigation {
             return true;
         }
         let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
-        let baseline = &self.found.baseline;
-        let scale = &self.bench.scale;
-        let tried = (Effort::Full, f64::INFINITY);
-        let trials = trials_of(wearing, &on, scale, baseline, tried);
+        let Found { baseline, .. } = &self.found;
+        let more = best.misfit - margin;
+        let left = wears || leaves_structure(train, best);
+        let wanted = if left { f64::INFINITY } else { more };
+        let tried = (Effort::Full, wanted);
+        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
         trials.iter().any(|on| {
             let mut anew = self.found.trials.iter();
             let anew = anew.find(|t| t.cause.name() == on.cause.name());
             let anew = anew.map_or(baseline.misfit, |t| t.fit.misfit);
             let beyond = baseline.misfit - train.rows() as f64;
-            on.fit.misfit < anew - margin.max(FURTHER_SHARE * beyond)
+            let least = margin.max(FURTHER_SHARE * beyond);
+            on.fit.misfit < more || left && on.fit.misfit < anew - least
         })
     }
 
