@@ -2,13 +2,17 @@
 
 use super::growing::leaves_structure;
 use super::however_worn::however_worn;
-use super::investigation::Investigation;
+use super::investigation::{Investigation, quickly_searched};
 use super::judged_channel::form;
+use super::prepare::prepare;
 use super::trials::{ALARM, Effort, one_leaves, trials};
+use crate::identify::beginning::Beginning;
 use crate::identify::{as_driven, baseline, refit_below};
 use crate::record::Record;
 
 /// Searches for causes in records however they begin and wear, with the drive as it leaves less between samples.
+///
+/// Where noise is what a model leaves, another drive is searched in full if a quick search makes it likelier.
 pub(super) fn however_driven(
     records: &[Record],
     timed: bool,
@@ -27,6 +31,18 @@ pub(super) fn however_driven(
             ..record
         })
         .collect();
+    if !first.bench.noise_is_repeated() {
+        // What noise is has to be told anew: another cause may have explained as much beside the wrong drive.
+        let begin: Vec<Beginning> = first.beginnings().cloned().collect();
+        let mut bench = prepare(form(records), &otherwise, &begin);
+        if first.bench.train.wears_on {
+            bench.wear_on();
+        }
+        let given = &first.found.best.effects;
+        if !quickly_searched(bench, timed, given, progress).is_likelier_than(&first) {
+            return first;
+        }
+    }
     let asked = (timed, first.enough());
     first.or_likelier(however_worn(&otherwise, asked, progress))
 }

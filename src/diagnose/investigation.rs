@@ -56,17 +56,57 @@ pub(super) fn searched(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     if !bench.noise_is_repeated() {
-        progress("what is noise: a quick search, because too few cycles repeat");
-        for _ in 0..2 {
-            bench.weigh_what_is_left(&quick(&bench, timed, &first));
-            first = baseline(&bench.train);
-        }
+        first = noise_told(&mut bench, timed, first, progress);
         known = None;
     }
     let enough = enough / bench.innovation_square();
     progress(SEARCHING);
     let found = search(&mut bench, timed, (first, known), enough);
     bench.weigh_what_is_left(&found.best);
+    Investigation { bench, found }
+}
+
+/// The baseline of records in which too few cycles repeat, weighed by what a quick search leaves.
+fn noise_told(
+    bench: &mut Bench,
+    timed: bool,
+    mut first: Fit,
+    progress: &mut impl FnMut(&str),
+) -> Fit {
+    progress("what is noise: a quick search, because too few cycles repeat");
+    for _ in 0..2 {
+        bench.weigh_what_is_left(&quick(bench, timed, &first));
+        first = baseline(&bench.train);
+    }
+    first
+}
+
+/// What a quick search alone finds in such records, or the given set of causes where that leaves less.
+pub(super) fn quickly_searched(
+    mut bench: Bench,
+    timed: bool,
+    given: &[Acting],
+    progress: &mut impl FnMut(&str),
+) -> Investigation {
+    let plain = baseline(&bench.train);
+    let first = noise_told(&mut bench, timed, plain, progress);
+    let (sought, given) = rayon::join(
+        || quick(&bench, timed, &first),
+        || refit(&bench.train, &first, given.to_vec()),
+    );
+    let best = match given.misfit < sought.misfit {
+        true => given,
+        false => sought,
+    };
+    bench.weigh_what_is_left(&best);
+    let found = Found {
+        baseline: first,
+        best,
+        trials: Vec::new(),
+        rivals: Vec::new(),
+        evidence: Vec::new(),
+        beaten: true,
+    };
     Investigation { bench, found }
 }
 
@@ -277,11 +317,16 @@ impl Investigation {
 
     /// This, or another where that is likelier.
     pub(super) fn or_likelier(self, other: Investigation) -> Investigation {
-        let scale = self.dispersion().min(other.dispersion());
-        match other.unlikeliness(scale) < self.unlikeliness(scale) {
+        match other.is_likelier_than(&self) {
             true => other,
             false => self,
         }
+    }
+
+    /// True where this is likelier than another.
+    pub(super) fn is_likelier_than(&self, other: &Investigation) -> bool {
+        let scale = self.dispersion().min(other.dispersion());
+        self.unlikeliness(scale) < other.unlikeliness(scale)
     }
 
     /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for

@@ -146,6 +146,9 @@ pub struct Prospect {
 
 impl Prospect {
     /// Compares a set with the smaller one it has grown from.
+    ///
+    /// Held-out samples that neither predicts as well as fitted ones are predicted, as of loads that no fitted sample has
+    /// shown, count for as much less: what is wrong there says little of either.
     pub fn of(bench: &Bench, smaller: &Fit, larger: &Fit) -> Prospect {
         let (before, after) = (smaller.predict(&bench.train), larger.predict(&bench.train));
         let mut prospect = Prospect {
@@ -156,11 +159,18 @@ impl Prospect {
             beyond: smaller.misfit - bench.train.rows() as f64,
             scatter: scatter(bench.train.rows() as f64),
         };
+        let (mut without, mut with, mut rows) = (0.0, 0.0, 0.0);
         each_unseen(bench, |k, i, measured, weight| {
             let (old, new) = (before[k].judged[i], after[k].judged[i]);
-            prospect.held_out += weight * ((measured - old).powi(2) - (measured - new).powi(2));
+            without += weight * (measured - old).powi(2);
+            with += weight * (measured - new).powi(2);
+            rows += weight * bench.noise[k].deviation.powi(2);
             prospect.difference += weight * (new - old).powi(2);
         });
+        let unforeseen = f64::max(with.min(without) - scatter(rows), rows) / rows.max(1.0);
+        let doubt = (unforeseen / dispersion(&bench.train, larger)).max(1.0);
+        prospect.held_out = (without - with) / doubt;
+        prospect.difference /= doubt;
         for (k, record) in bench.train.records.iter().enumerate() {
             let (_, judged) = bench.train.channels(k);
             let error = |of: f64, i: usize| ((judged[i] - of) / bench.noise[k].deviation).powi(2);
@@ -214,6 +224,54 @@ impl Prospect {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::causes::find;
+    use crate::diagnose::prepare::prepare;
+    use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, baseline};
+    use crate::joint::effect::Acting;
+    use crate::record::Record;
+    use crate::record::noise::tests::drawn;
+
+    /// Share to which held-out samples count for a cubic spring where they hold what no fitted one has shown, so many
+    /// times as large as the noise.
+    fn counted(unforeseen: f64) -> f64 {
+        let mut noise = drawn(20261127);
+        let time: Vec<f64> = (0..4000).map(|i| 0.01 * f64::from(i)).collect();
+        let force: Vec<f64> = time.iter().map(|t| 80.0 * (5.1 * t).sin()).collect();
+        let heard = force.iter().map(|f| 1e-8 * (f + noise() - 0.5));
+        let mut record = Record {
+            name: "unforeseen".to_string(),
+            displacement: heard.collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        let virgin = [Beginning::default()];
+        let calm = prepare(Form::Play, std::slice::from_ref(&record), &virgin);
+        for i in (0..record.len()).filter(|&i| calm.is_unseen(0, i)) {
+            record.displacement[i] += 3e-9 * unforeseen * (0.9 * i as f64).sin();
+        }
+        let bench = prepare(Form::Play, &[record], &virgin);
+        let smaller = baseline(&bench.train);
+        let effect = find("cubic_stiffness").unwrap().effect();
+        let larger = Fit {
+            effects: vec![Acting {
+                effect,
+                values: vec![2e-15, 0.0, 0.0, 0.0],
+            }],
+            ..smaller.clone()
+        };
+        let beyond = |fit: &Fit| beyond_unseen(&bench, fit);
+        let prospect = Prospect::of(&bench, &smaller, &larger);
+        prospect.held_out / (beyond(&smaller) - beyond(&larger))
+    }
+
+    #[test]
+    fn what_no_model_foresees_says_little_of_any() {
+        let (calm, unforeseen) = (counted(0.0), counted(20.0));
+        assert!((calm - 1.0).abs() < 0.05, "{calm}");
+        assert!((0.0..0.02).contains(&unforeseen), "{unforeseen}");
+    }
 
     /// Noise told 1.3 % too large, a cause that takes 360 noise variances and tells nothing of the cycles held out.
     #[test]

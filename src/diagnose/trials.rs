@@ -3,6 +3,7 @@
 
 use super::forms::{by_form, of_other_forms, starts};
 use super::refinements::refined;
+use super::search::MOST;
 use rayon::prelude::*;
 
 use crate::causes::{CATALOGUE, Cause, Scale, find};
@@ -90,7 +91,8 @@ const LEADING: usize = 4;
 /// Those that set the bound of a full one.
 const FIRST: usize = 2;
 
-/// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more.
+/// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more
+/// beside up to one other cause.
 pub(super) const SHAPES: usize = 2;
 const OF_A_MASS: usize = 8;
 
@@ -156,7 +158,7 @@ pub fn trials_of(
         let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
         let foretold = |s: &&Score| s.fall > worth.max((current.misfit - bound) / FORETOLD);
         let rings = |s: &Score| problem.hauls(&s.acting);
-        let shapes = match scores.iter().any(rings) {
+        let shapes = match scores.iter().any(rings) && current.effects.len() + 1 < MOST {
             true if shapes == SHAPES => OF_A_MASS,
             _ => shapes,
         };
