@@ -9,11 +9,27 @@ use std::f64::consts::TAU;
 
 const CYCLE: usize = 80;
 
+/// Noise of unit variance.
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    move || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
+}
+
+/// A record whose samples are a step apart, of force and displacement.
+fn record(name: &str, step: f64, [force, displacement]: [Vec<f64>; 2]) -> Record {
+    Record {
+        name: name.to_string(),
+        time: Some((0..force.len()).map(|i| step * i as f64).collect()),
+        force,
+        displacement,
+        ..Record::default()
+    }
+}
+
 /// Sixty sliders whose friction falls by a third with the way they have gone, under two tests of a stepped sine of
 /// displacement with noise in the force.
 fn records(seed: u64, made_new: bool) -> Vec<Record> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let mut noise = noise(seed);
     let mut way = 0.0;
     let mut test = |name: &str, step: f64| {
         let mut reached = [0.0_f64; 60];
@@ -35,13 +51,7 @@ fn records(seed: u64, made_new: bool) -> Vec<Record> {
             force.push(2e6 * reached.iter().sum::<f64>() + 1.5 * noise());
             displacement.push(u);
         }
-        Record {
-            name: name.to_string(),
-            time: Some((0..force.len()).map(|i| step * i as f64).collect()),
-            force,
-            displacement,
-            ..Record::default()
-        }
+        record(name, step, [force, displacement])
     };
     vec![test("first", 0.01), test("second", 0.003)]
 }
@@ -50,8 +60,7 @@ fn records(seed: u64, made_new: bool) -> Vec<Record> {
 /// force with noise in the displacement: the first begins with its highest level, so that all but its first cycle
 /// cross a play of one size.
 fn slackened(seed: u64) -> Vec<Record> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let mut noise = noise(seed);
     let mut peak = 0.0_f64;
     let mut test = |name: &str, step: f64, levels: [f64; 4]| {
         let mut reached = [0.0_f64; 60];
@@ -71,13 +80,7 @@ fn slackened(seed: u64) -> Vec<Record> {
             force.push(f);
             displacement.push(slipped + crossed + 1.5e-8 * noise());
         }
-        Record {
-            name: name.to_string(),
-            time: Some((0..force.len()).map(|i| step * i as f64).collect()),
-            force,
-            displacement,
-            ..Record::default()
-        }
+        record(name, step, [force, displacement])
     };
     vec![
         test("first", 0.01, [100.0, 60.0, 80.0, 40.0]),
