@@ -20,10 +20,6 @@ pub(super) fn however_driven(
 ) -> Investigation {
     let driven = as_driven(form(records), records);
     let first = however_worn(&driven, (timed, f64::INFINITY), progress);
-    if !first.suits_another_drive(timed) {
-        return first;
-    }
-    progress("once more: the drive may do something else between its samples");
     let otherwise: Vec<Record> = driven
         .into_iter()
         .map(|record| Record {
@@ -31,38 +27,64 @@ pub(super) fn however_driven(
             ..record
         })
         .collect();
-    if !first.bench.noise_is_repeated() {
-        // What noise is has to be told anew: another cause may have explained as much beside the wrong drive.
-        let begin: Vec<Beginning> = first.beginnings().cloned().collect();
-        let mut bench = prepare(form(records), &otherwise, &begin);
-        if first.bench.train.wears_on {
-            bench.wear_on();
-        }
-        let given = &first.found.best.effects;
-        if !quickly_searched(bench, timed, given, progress).is_likelier_than(&first) {
-            return first;
-        }
+    if !first.suits_another_drive(&otherwise, timed, progress) {
+        return first;
     }
+    progress("once more: the drive may do something else between its samples");
     let asked = (timed, first.enough());
     first.or_likelier(however_worn(&otherwise, asked, progress))
 }
 
 impl Investigation {
-    /// True where the causes that were found, or another one alone, leave less beside a drive that does otherwise
-    /// between its samples: what joints without any cause leave tells little where a cause does much.
+    /// True where the records may suit better a drive that does otherwise between its samples, beside causes: what joints
+    /// without any leave tells little where a cause does much.
     ///
-    /// Another cause is asked for where the drive is the rarer one, or where what was found leaves structure; without
-    /// asking, a rarer drive is compared where what it leaves was taken for noise.
-    fn suits_another_drive(&self, timed: bool) -> bool {
-        let best = &self.found.best;
-        if best.effects.is_empty() {
+    /// A rarer drive is compared in any case where what it leaves was taken for noise.
+    fn suits_another_drive(
+        &self,
+        otherwise: &[Record],
+        timed: bool,
+        progress: &mut impl FnMut(&str),
+    ) -> bool {
+        if self.found.best.effects.is_empty() {
             return false;
         }
-        let mut train = self.bench.train.clone();
-        let straight = train.records.iter().any(|r| r.between.straight);
-        if straight && !self.bench.noise_is_repeated() {
-            return true;
+        let repeated = self.bench.noise_is_repeated();
+        let compared = !repeated && self.is_straight();
+        (compared || self.leaves_less_otherwise_driven(timed))
+            && (repeated || self.quick_search_likes(otherwise, timed, progress))
+    }
+
+    fn is_straight(&self) -> bool {
+        let mut records = self.bench.train.records.iter();
+        records.any(|r| r.between.straight)
+    }
+
+    /// True where a quick search, or the causes that were found, make another drive likelier.
+    ///
+    /// What noise is has to be told anew: another cause may have explained as much beside the wrong drive.
+    fn quick_search_likes(
+        &self,
+        otherwise: &[Record],
+        timed: bool,
+        progress: &mut impl FnMut(&str),
+    ) -> bool {
+        let train = &self.bench.train;
+        let begin: Vec<Beginning> = self.beginnings().cloned().collect();
+        let mut bench = prepare(train.operators.form, otherwise, &begin);
+        if train.wears_on {
+            bench.wear_on();
         }
+        let given = &self.found.best.effects;
+        quickly_searched(bench, timed, given, progress).is_likelier_than(self)
+    }
+
+    /// True where the causes that were found, or another one alone, leave less beside the other drive.
+    ///
+    /// Another cause is asked for where the drive is the rarer one, or where what was found leaves structure.
+    fn leaves_less_otherwise_driven(&self, timed: bool) -> bool {
+        let best = &self.found.best;
+        let mut train = self.bench.train.clone();
         let form = train.operators.form;
         for record in &mut train.records {
             record.between.straight = !record.between.straight;
@@ -72,7 +94,7 @@ impl Investigation {
         if refit_below(&train, best, best.effects.clone(), bound).misfit < bound {
             return true;
         }
-        if !straight && !leaves_structure(&self.bench.train, best) {
+        if !self.is_straight() && !leaves_structure(&self.bench.train, best) {
             return false;
         }
         let (plain, effort) = (baseline(&train), (Effort::Full, bound));

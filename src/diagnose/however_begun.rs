@@ -178,7 +178,7 @@ pub(super) fn sharply_searched(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let one = searched(bench, (first, None), (timed, enough), progress).sharpened();
-    match one.found.beaten && one.left() < enough {
+    match one.found.unasked && one.left() < enough {
         true => {
             let Investigation { bench, found } = one;
             let asked = (timed, f64::INFINITY);

@@ -99,14 +99,7 @@ pub(super) fn quickly_searched(
         false => sought,
     };
     bench.weigh_what_is_left(&best);
-    let found = Found {
-        baseline: first,
-        best,
-        trials: Vec::new(),
-        rivals: Vec::new(),
-        evidence: Vec::new(),
-        beaten: true,
-    };
+    let found = Found::unasked(first, best, Vec::new());
     Investigation { bench, found }
 }
 
@@ -136,7 +129,7 @@ impl Investigation {
     pub(super) fn enough(&self) -> f64 {
         let rows = self.bench.train.rows().max(1) as f64;
         let beyond = (self.dispersion() - 1.0).max(SLIGHT + ALARM / rows);
-        match (self.found.beaten, self.bench.noise_is_repeated()) {
+        match (self.found.unasked, self.bench.noise_is_repeated()) {
             (true, _) => f64::INFINITY,
             (false, true) => self.bench.innovation_square() * (1.0 + FAR * beyond),
             (false, false) => FAR * self.left(),
@@ -224,19 +217,20 @@ impl Investigation {
         }
         let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
         let Found { baseline, .. } = &self.found;
-        let more = best.misfit - margin;
-        let left = wears || leaves_structure(train, best);
-        let wanted = if left { f64::INFINITY } else { more };
-        let tried = (Effort::Full, wanted);
-        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
-        trials.iter().any(|on| {
+        let wanted = best.misfit - margin;
+        let does_more_than_all = |on: &Trial| on.fit.misfit < wanted;
+        let beyond = baseline.misfit - train.rows() as f64;
+        let least = margin.max(FURTHER_SHARE * beyond);
+        let does_more_than_anew = |on: &Trial| {
             let mut anew = self.found.trials.iter();
             let anew = anew.find(|t| t.cause.name() == on.cause.name());
-            let anew = anew.map_or(baseline.misfit, |t| t.fit.misfit);
-            let beyond = baseline.misfit - train.rows() as f64;
-            let least = margin.max(FURTHER_SHARE * beyond);
-            on.fit.misfit < more || left && on.fit.misfit < anew - least
-        })
+            on.fit.misfit < anew.map_or(baseline.misfit, |t| t.fit.misfit) - least
+        };
+        let left = wears || leaves_structure(train, best);
+        let tried = (Effort::Full, if left { f64::INFINITY } else { wanted });
+        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
+        let mut trials = trials.iter();
+        trials.any(|on| does_more_than_all(on) || left && does_more_than_anew(on))
     }
 
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what

@@ -25,12 +25,24 @@ pub struct Found {
     pub rivals: Vec<Vec<String>>,
     /// For each named cause: evidence it brings beside the others.
     pub evidence: Vec<f64>,
-    /// True where what was found leaves far more than the same records do that begin otherwise: rivals and evidence
-    /// were not asked for.
-    pub beaten: bool,
+    /// True where rivals and evidence were not asked for: other beginnings or drives of the same records are likelier,
+    /// or may be.
+    pub unasked: bool,
 }
 
 impl Found {
+    /// A set of which rivals and evidence are not asked for.
+    pub(super) fn unasked(baseline: Fit, best: Fit, trials: Vec<Trial>) -> Found {
+        Found {
+            rivals: vec![Vec::new(); best.effects.len()],
+            evidence: vec![0.0; best.effects.len()],
+            baseline,
+            best,
+            trials,
+            unasked: true,
+        }
+    }
+
     /// With joints that follow the noise no more than their data ask for.
     pub fn smoothed(self, bench: &Bench) -> Found {
         let (baseline, best) = rayon::join(
@@ -73,14 +85,7 @@ pub fn search(
     let first = known.unwrap_or_else(|| alone(bench, timed, &baseline));
     let best = grown(bench, timed, (&baseline, &first), (Effort::Full, enough));
     if best.misfit > enough {
-        return Found {
-            rivals: vec![Vec::new(); best.effects.len()],
-            evidence: vec![0.0; best.effects.len()],
-            baseline,
-            best,
-            trials: first,
-            beaten: true,
-        };
+        return Found::unasked(baseline, best, first);
     }
     let best = finely(bench, best);
     let least = least(&bench.train, &baseline);
@@ -103,7 +108,7 @@ pub fn search(
         baseline,
         best,
         trials: first,
-        beaten: false,
+        unasked: false,
     }
 }
 
@@ -164,8 +169,8 @@ mod tests {
         let plain = baseline(&bench.train);
         let asked = |enough: f64| search(&mut bench.clone(), true, (plain.clone(), None), enough);
         let (found, beaten) = (asked(f64::INFINITY), asked(0.01));
-        assert!(!found.beaten && found.evidence[0] > 0.0, "{found:?}");
-        assert!(beaten.beaten && beaten.best.misfit <= found.best.misfit * 1.001);
+        assert!(!found.unasked && found.evidence[0] > 0.0, "{found:?}");
+        assert!(beaten.unasked && beaten.best.misfit <= found.best.misfit * 1.001);
         assert!(beaten.evidence.iter().all(|e| *e == 0.0) && beaten.rivals.concat().is_empty());
     }
 }

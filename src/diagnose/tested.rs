@@ -159,15 +159,15 @@ impl Prospect {
             beyond: smaller.misfit - bench.train.rows() as f64,
             scatter: scatter(bench.train.rows() as f64),
         };
-        let (mut without, mut with, mut rows) = (0.0, 0.0, 0.0);
+        let (mut without, mut with) = (0.0, 0.0);
         each_unseen(bench, |k, i, measured, weight| {
             let (old, new) = (before[k].judged[i], after[k].judged[i]);
             without += weight * (measured - old).powi(2);
             with += weight * (measured - new).powi(2);
-            rows += weight * bench.noise[k].deviation.powi(2);
             prospect.difference += weight * (new - old).powi(2);
         });
-        let unforeseen = f64::max(with.min(without) - scatter(rows), rows) / rows.max(1.0);
+        let rows = unseen_rows(bench).max(1.0);
+        let unforeseen = (with.min(without) - scatter(rows)) / rows;
         let doubt = (unforeseen / dispersion(&bench.train, larger)).max(1.0);
         prospect.held_out = (without - with) / doubt;
         prospect.difference /= doubt;
