@@ -5,7 +5,7 @@ use super::however_worn::however_worn;
 use super::investigation::{Investigation, quickly_searched};
 use super::judged_channel::form;
 use super::prepare::prepare;
-use super::trials::{ALARM, Effort, one_leaves, trials};
+use super::trials::{ALARM, Effort, trials};
 use crate::identify::beginning::Beginning;
 use crate::identify::{as_driven, baseline, refit_below};
 use crate::record::Record;
@@ -99,6 +99,6 @@ impl Investigation {
         }
         let (plain, effort) = (baseline(&train), (Effort::Full, bound));
         let alone = trials(&train, &self.bench.scale, timed, &plain, effort);
-        one_leaves(&alone, bound)
+        self.one_gains(&self.bench.train, &alone, bound)
     }
 }

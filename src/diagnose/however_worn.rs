@@ -1,12 +1,13 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
-use super::growing::{leaves_structure, structure_left};
+use super::growing::{FURTHER_SHARE, leaves_structure, structure_left};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
 use super::investigation::{Investigation, SEARCHING, searched};
-use super::search::alone;
-use super::trials::{ALARM, Effort, one_leaves, trials_of};
+use super::search::{Found, alone};
+use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trials_of};
 
 use crate::causes::Cause;
+use crate::identify::refit;
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -70,4 +71,39 @@ fn worn_by_one_cause(
     let one = best.effects.len() == 1 && !leaves_structure(&on.bench.train, best);
     let near = best.misfit + ALARM * on.dispersion();
     (one && !one_leaves(anew, near)).then_some(on)
+}
+
+impl Investigation {
+    /// True where wear that goes on from record to record explains what wear of joints made new between them does
+    /// not, beside the causes that were found or alone; or alone more than those.
+    fn may_wear_on(&self) -> bool {
+        let train = &self.bench.train;
+        let best = &self.found.best;
+        if train.records.len() < 2 || train.wears_on {
+            return false;
+        }
+        let wears = best.effects.iter().any(|a| a.effect.lasting() > 0);
+        let mut on = train.clone();
+        on.wears_on = true;
+        let margin = ALARM * dispersion(train, best);
+        if wears && refit(&on, best, best.effects.clone()).misfit < best.misfit - margin {
+            return true;
+        }
+        let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
+        let Found { baseline, .. } = &self.found;
+        let wanted = best.misfit - margin;
+        let does_more_than_all = |on: &Trial| on.fit.misfit < wanted;
+        let beyond = baseline.misfit - train.rows() as f64;
+        let least = margin.max(FURTHER_SHARE * beyond);
+        let does_more_than_anew = |on: &Trial| {
+            let mut anew = self.found.trials.iter();
+            let anew = anew.find(|t| t.cause.name() == on.cause.name());
+            on.fit.misfit < anew.map_or(baseline.misfit, |t| t.fit.misfit) - least
+        };
+        let left = wears || leaves_structure(train, best);
+        let tried = (Effort::Full, if left { f64::INFINITY } else { wanted });
+        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
+        let mut trials = trials.iter();
+        trials.any(|on| does_more_than_all(on) || left && does_more_than_anew(on))
+    }
 }

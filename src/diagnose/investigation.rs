@@ -192,7 +192,7 @@ impl Investigation {
             };
             let scale = &self.bench.scale;
             let tried = trials_of(asked, &other, scale, &plain, (Effort::Full, wanted));
-            tried.iter().any(|t| t.fit.misfit < wanted)
+            self.one_gains(&train, &tried, wanted)
         };
         plain.misfit < reached + margin
             || beside(best.effects.clone()) < reached - taken
@@ -200,37 +200,17 @@ impl Investigation {
             || (several || structure) && one_alone()
     }
 
-    /// True where wear that goes on from record to record explains what wear of joints made new between them does
-    /// not, beside the causes that were found or alone; or alone more than those.
-    pub(super) fn may_wear_on(&self) -> bool {
-        let train = &self.bench.train;
-        let best = &self.found.best;
-        if train.records.len() < 2 || train.wears_on {
-            return false;
-        }
-        let wears = best.effects.iter().any(|a| a.effect.lasting() > 0);
-        let mut on = train.clone();
-        on.wears_on = true;
-        let margin = ALARM * dispersion(train, best);
-        if wears && refit(&on, best, best.effects.clone()).misfit < best.misfit - margin {
-            return true;
-        }
-        let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
-        let Found { baseline, .. } = &self.found;
-        let wanted = best.misfit - margin;
-        let does_more_than_all = |on: &Trial| on.fit.misfit < wanted;
-        let beyond = baseline.misfit - train.rows() as f64;
-        let least = margin.max(FURTHER_SHARE * beyond);
-        let does_more_than_anew = |on: &Trial| {
-            let mut anew = self.found.trials.iter();
-            let anew = anew.find(|t| t.cause.name() == on.cause.name());
-            on.fit.misfit < anew.map_or(baseline.misfit, |t| t.fit.misfit) - least
+    /// True where a cause alone leaves less than a misfit beside other beginnings or another drive, and less than it
+    /// leaves here: what was not taken here for another reason would not be there either.
+    pub(super) fn one_gains(&self, here: &Problem, there: &[Trial], wanted: f64) -> bool {
+        let margin = ALARM * self.dispersion();
+        let left_here = |cause: &dyn Cause| {
+            let mut tried = self.found.trials.iter();
+            let own = tried.find(|t| t.cause.name() == cause.name());
+            own.map_or(f64::INFINITY, |t| here.misfit(&t.fit.predict(here)).0)
         };
-        let left = wears || leaves_structure(train, best);
-        let tried = (Effort::Full, if left { f64::INFINITY } else { wanted });
-        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
-        let mut trials = trials.iter();
-        trials.any(|on| does_more_than_all(on) || left && does_more_than_anew(on))
+        let mut left_there = there.iter().filter(|t| t.fit.misfit < wanted);
+        left_there.any(|t| t.fit.misfit < left_here(t.cause) - margin)
     }
 
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what

@@ -214,8 +214,8 @@ fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> 
 struct Steps {
     most: usize,
     longest: usize,
-    /// A refit that would need [`PROSPECT`] more steps like its last one to come below this misfit
-    /// is given up.
+    /// A refit is given up that would need more than [`PROSPECT`] steps like its last one to come below this misfit,
+    /// or more than [`CREDITED`] as the next one is foretold.
     bound: f64,
     /// Misfit without the newest effect: a start that is worse begins smaller.
     before: f64,
@@ -228,6 +228,10 @@ const FIRST: usize = 3;
 
 /// Steps like the last one that a refit is credited with: Gauss–Newton steps shrink.
 pub const PROSPECT: f64 = 4.0;
+
+/// Falls, as the linearised model foretells the next one, that a refit is credited with. Judged: of 843 refits with a
+/// bound 129 came below it, none of which had at any step been farther from it than 6.5 such falls.
+const CREDITED: f64 = 8.0;
 
 impl Steps {
     fn full() -> Steps {
@@ -286,7 +290,8 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
         let bounded = bounded(problem, &normal);
         let solution = normal.solve(&bounded);
         let foretold = now.misfit - normal.misfit(&solution);
-        if round > 0 && foretold < SETTLED * now.misfit {
+        let hopeless = now.misfit - CREDITED * foretold > steps.bound;
+        if round > 0 && (foretold < SETTLED * now.misfit || hopeless) {
             break;
         }
         let mut accepted = false;
