@@ -322,27 +322,13 @@ impl Investigation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::prepare::prepare;
-    use crate::identify::Form;
-    use crate::record::Record;
-    use crate::record::noise::tests::drawn;
+    use crate::diagnose::search::tests::dashpot;
 
     /// A dashpot in white noise: what single causes leave here is no reason to search elsewhere if they leave as much
     /// there, be it less than is wanted.
     #[test]
     fn what_a_cause_leaves_here_as_well_is_no_gain_elsewhere() {
-        let mut noise = drawn(20261128);
-        let time: Vec<f64> = (0..1500).map(|i| 0.01 * f64::from(i)).collect();
-        let force: Vec<f64> = time.iter().map(|t| 80.0 * (5.0 * t).sin()).collect();
-        let late = |t: &f64| 1e-8 * 80.0 * (5.0 * t - 0.2).sin();
-        let record = Record {
-            name: "dashpot".to_string(),
-            displacement: time.iter().map(|t| late(t) + 1e-8 * noise()).collect(),
-            force,
-            time: Some(time),
-            ..Record::default()
-        };
-        let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        let bench = dashpot(20261128);
         let plain = baseline(&bench.train);
         let asked = (true, f64::INFINITY);
         let here = searched(bench, (plain, None), asked, &mut |_| ());
