@@ -99,6 +99,6 @@ impl Investigation {
         }
         let (plain, effort) = (baseline(&train), (Effort::Full, bound));
         let alone = trials(&train, &self.bench.scale, timed, &plain, effort);
-        self.one_gains(&self.bench.train, &alone, bound)
+        self.one_gains(|own| own.fit.misfit, &alone, bound)
     }
 }

@@ -1,7 +1,7 @@
 //! Laws of several forms: a sensor or a load cell, a spring in the load path or across the joint.
 
 use super::refinements::refined;
-use super::trials::{PROMISING, Trial, scored};
+use super::trials::{PROMISING, Trial, scored, trial_of};
 use crate::causes::Scale;
 use crate::identify::{Fit, PROSPECT, Problem, Score, glanced, refit};
 use crate::joint::effect::Acting;
@@ -92,8 +92,8 @@ pub(super) fn at_other_places(
     trials: &[Trial],
 ) -> Vec<Trial> {
     let tried = |a: &Acting| {
-        let mut own = trials.iter().filter(|t| t.plausible);
-        own.find_map(|t| t.own().filter(|own| own.effect.name() == a.effect.name()))
+        let own = trial_of(trials, a.effect.name()).filter(|t| t.plausible);
+        own.and_then(Trial::own)
     };
     let elsewhere = |a: &Acting| tried(a).is_some_and(|own| own.places().ne(a.places()));
     let scored = scored((|_| true, elsewhere), problem, scale, current);

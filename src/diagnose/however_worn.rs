@@ -4,7 +4,7 @@ use super::growing::{FURTHER_SHARE, leaves_structure, structure_left};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
 use super::investigation::{Investigation, SEARCHING, searched};
 use super::search::{Found, alone};
-use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trials_of};
+use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of, trials_of};
 
 use crate::causes::Cause;
 use crate::identify::refit;
@@ -96,8 +96,7 @@ impl Investigation {
         let beyond = baseline.misfit - train.rows() as f64;
         let least = margin.max(FURTHER_SHARE * beyond);
         let does_more_than_anew = |on: &Trial| {
-            let mut anew = self.found.trials.iter();
-            let anew = anew.find(|t| t.cause.name() == on.cause.name());
+            let anew = trial_of(&self.found.trials, on.cause.name());
             on.fit.misfit < anew.map_or(baseline.misfit, |t| t.fit.misfit) - least
         };
         let left = wears || leaves_structure(train, best);

@@ -3,7 +3,7 @@
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trials_of};
+use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of, trials_of};
 use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
@@ -186,13 +186,11 @@ impl Investigation {
             reached - taken
         };
         let one_alone = || {
-            let asked = |cause: &dyn Cause| {
-                let mut names = self.found.trials.iter().map(|t| t.cause.name());
-                names.any(|name| name == cause.name())
-            };
+            let asked = |cause: &dyn Cause| trial_of(&self.found.trials, cause.name()).is_some();
             let scale = &self.bench.scale;
             let tried = trials_of(asked, &other, scale, &plain, (Effort::Full, wanted));
-            self.one_gains(&train, &tried, wanted)
+            let left_here = |own: &Trial| train.misfit(&own.fit.predict(&train)).0;
+            self.one_gains(left_here, &tried, wanted)
         };
         plain.misfit < reached + margin
             || beside(best.effects.clone()) < reached - taken
@@ -202,15 +200,19 @@ impl Investigation {
 
     /// True where a cause alone leaves less than a misfit beside other beginnings or another drive, and less than it
     /// leaves here: what was not taken here for another reason would not be there either.
-    pub(super) fn one_gains(&self, here: &Problem, there: &[Trial], wanted: f64) -> bool {
+    pub(super) fn one_gains(
+        &self,
+        left_here: impl Fn(&Trial) -> f64,
+        there: &[Trial],
+        wanted: f64,
+    ) -> bool {
         let margin = ALARM * self.dispersion();
-        let left_here = |cause: &dyn Cause| {
-            let mut tried = self.found.trials.iter();
-            let own = tried.find(|t| t.cause.name() == cause.name());
-            own.map_or(f64::INFINITY, |t| here.misfit(&t.fit.predict(here)).0)
+        let gains = |there: &Trial| {
+            let own = trial_of(&self.found.trials, there.cause.name());
+            own.is_none_or(|own| there.fit.misfit < left_here(own) - margin)
         };
-        let mut left_there = there.iter().filter(|t| t.fit.misfit < wanted);
-        left_there.any(|t| t.fit.misfit < left_here(t.cause) - margin)
+        let mut less = there.iter().filter(|t| t.fit.misfit < wanted);
+        less.any(gains)
     }
 
     /// The same with first samples as witnesses again, the turns before them where they ask for those beside what
@@ -332,12 +334,12 @@ mod tests {
         let plain = baseline(&bench.train);
         let asked = (true, f64::INFINITY);
         let here = searched(bench, (plain, None), asked, &mut |_| ());
-        let train = &here.bench.train;
+        let gains = |there: &[Trial], wanted: f64| here.one_gains(|t| t.fit.misfit, there, wanted);
         let mut there = here.found.trials.clone();
-        assert!(there.len() > 10 && !here.one_gains(train, &there, f64::INFINITY));
+        assert!(there.len() > 10 && !gains(&there, f64::INFINITY));
         // The dashpot's rival, and by more than one model is likelier than another.
         there[1].fit.misfit -= 1.1 * ALARM * here.dispersion();
-        assert!(here.one_gains(train, &there, f64::INFINITY));
-        assert!(!here.one_gains(train, &there, there[1].fit.misfit));
+        assert!(gains(&there, f64::INFINITY));
+        assert!(!gains(&there, there[1].fit.misfit));
     }
 }

@@ -3,7 +3,7 @@
 use super::prepare::Bench;
 use super::probability::temperature;
 use super::tested::{Prospect, beyond_unseen};
-use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trials};
+use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trial_of, trials};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
 use crate::identify::weighing::deviation;
@@ -70,7 +70,7 @@ pub fn places(
 /// it was then: beside the others it may have taken a part that is not its own.
 pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]) -> Fit {
     let before = match others.as_slice() {
-        [one] => first.iter().find(|t| t.cause.name() == one.effect.name()),
+        [one] => trial_of(first, one.effect.name()),
         _ => None,
     };
     let anew = refit(problem, best, others);

@@ -252,6 +252,11 @@ fn sticks(acting: &Acting) -> bool {
     acting.effect.sticking(&acting.values) > 0.0
 }
 
+/// What was tried of a cause; `None` where it was not.
+pub(super) fn trial_of<'a>(trials: &'a [Trial], name: &str) -> Option<&'a Trial> {
+    trials.iter().find(|t| t.cause.name() == name)
+}
+
 /// True where one of the trials leaves less than a misfit, with values of its own.
 pub(super) fn one_leaves(trials: &[Trial], misfit: f64) -> bool {
     trials.iter().any(|t| t.plausible && t.fit.misfit < misfit)

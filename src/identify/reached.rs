@@ -91,7 +91,7 @@ impl Reached {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Fit, Form, baseline, refit};
+    use crate::identify::{Fit, Form, baseline, glanced, refit, refit_below};
     use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -127,9 +127,15 @@ mod tests {
         }
     }
 
-    /// Values that go far leave their dictionary behind, and another one suits them.
-    #[test]
-    fn a_value_goes_far_beside_a_dictionary_that_must_follow_it() {
+    fn uneven(share: f64) -> Vec<Acting> {
+        vec![Acting {
+            effect: &Uneven,
+            values: vec![share],
+        }]
+    }
+
+    /// What a joint of a smooth density, on a grid of its own, does with limits a fifth larger one way; nearly.
+    fn of_uneven_limits() -> Problem {
         let force: Vec<f64> = (0..1500)
             .map(|i| 0.004 * f64::from(i))
             .map(|t| 0.2 * (31.0 * t).sin() + 0.5 * (13.0 * t).sin() - 0.3 * (2.6 * t).sin())
@@ -141,14 +147,7 @@ mod tests {
             force,
             ..Record::default()
         };
-        let uneven = |share: f64| {
-            vec![Acting {
-                effect: &Uneven,
-                values: vec![share],
-            }]
-        };
         let mut problem = Problem::new(Form::Play, &[record.clone()]);
-        // A joint of a smooth density, on a grid of its own.
         let edges: Vec<f64> = (1..=300).map(|j| 0.0033 * f64::from(j)).collect();
         let density = |r: &f64| (-0.5 * ((r / 0.8).ln() / 0.46).powi(2)).exp() / r;
         let coefficients: Vec<f64> = std::iter::once(1.0)
@@ -163,6 +162,13 @@ mod tests {
         record.displacement = exact.iter().enumerate().map(rough).collect();
         let mut problem = Problem::new(Form::Play, &[record]);
         problem.records[0].weight.fill(1e3);
+        problem
+    }
+
+    /// Values that go far leave their dictionary behind, and another one suits them.
+    #[test]
+    fn a_value_goes_far_beside_a_dictionary_that_must_follow_it() {
+        let problem = of_uneven_limits();
         let start = baseline(&problem);
         let far = Reached::at(&problem, start.coefficients.clone(), uneven(0.2));
         let near = far.suited(&problem);
@@ -174,6 +180,19 @@ mod tests {
             assert!((found - 0.2).abs() < 0.005, "from {share}: {found}");
             assert!(near.misfit < 1.01 * fit.misfit);
         }
+    }
+
+    /// Of what is wanted of it the first step has gone as far as any hopeless refit does.
+    #[test]
+    fn a_refit_that_its_linearised_model_gives_no_prospect_ends_after_its_first_step() {
+        let problem = of_uneven_limits();
+        let start = baseline(&problem);
+        let stepped = |steps| glanced(&problem, &start, uneven(0.02), steps).misfit;
+        let wanting = |bound: f64| refit_below(&problem, &start, uneven(0.02), bound).misfit;
+        let (first, least) = (stepped(1), wanting(f64::INFINITY));
+        assert!(stepped(2) < first && least < 0.9 * first);
+        assert_eq!(wanting(-1e3 * start.misfit), first);
+        assert_eq!(wanting(1.01 * least), least);
     }
 
     /// Friction that falls by a share over a path of the slip.
