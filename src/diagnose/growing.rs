@@ -130,7 +130,8 @@ impl Grow<'_> {
         while current.effects.len() < MOST {
             let enough = match current.effects.len() {
                 1 => current.misfit - self.least.min(0.5 * structure(problem, &current)),
-                _ => current.misfit - self.least,
+                // The last cause has to bring the set to what is wanted of it.
+                _ => (current.misfit - self.least).min(self.wanted),
             };
             if enough < OVERRATED * problem.rows() as f64 {
                 break;

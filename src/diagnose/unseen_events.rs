@@ -20,6 +20,10 @@ const TIMES: f64 = 3.0;
 /// catalogue leaves more.
 const LEFT: f64 = 0.25;
 
+/// Times as much that a set which has grown may leave, before its causes are exchanged for better ones, and still be
+/// asked further. Judged.
+const EXCHANGED: f64 = 2.0;
+
 /// Where samples that were set aside show what no fitted sample did, at the end of the records and before it: what
 /// happened there has not been looked for, or not been placed.
 fn news(bench: &Bench, fit: &Fit) -> Fitted {
@@ -68,12 +72,21 @@ pub fn investigated(
     let mut bench = first.bench.clone();
     bench.fit_also(news);
     let plain = baseline(&bench.train);
-    let asked = (timed, f64::INFINITY);
-    let again = searched(bench, (plain, None), asked, progress).sharpened();
-    let after = again.left_of_all(&first.bench);
     // Every cause counts for what one must bring.
     let counted = |i: &Investigation, left: f64| left + i.found.best.effects.len() as f64 * ALARM;
-    let explains = counted(&again, after) < LEFT * counted(&first, before);
+    let wanted = LEFT * counted(&first, before);
+    // Refitted to all samples a set leaves no less of those it was fitted to.
+    let beyond = EXCHANGED * wanted / bench.train.rows().max(1) as f64;
+    let enough = match told_by_all {
+        true => f64::INFINITY,
+        false => bench.innovation_square() * (1.0 + beyond),
+    };
+    let again = searched(bench, (plain, None), (timed, enough), progress).sharpened();
+    if again.found.unasked {
+        return first;
+    }
+    let after = again.left_of_all(&first.bench);
+    let explains = counted(&again, after) < wanted;
     // The same causes with what happened in sight: their gain is measured where nothing does.
     let places = told_by_all && again.names() == first.names();
     match explains || places {
