@@ -180,6 +180,7 @@ def follow_up_totals(marks):
     """Shares over the cases that were ambiguous before; one without a program is not settled."""
     open_before = [m for m in marks if m["before"] and m["before"]["ambiguous_with"]]
     offered = [m for m in open_before if m["after"] or m["failed"]]
+    promised = [m for m in offered if (m.get("promised") or {}).get("settles")]
 
     def over(group, mark):
         return share(sum(bool(m["after"] and m["after"][mark]) for m in group), len(group))
@@ -192,6 +193,7 @@ def follow_up_totals(marks):
         "experiment_offered": share(len(offered), len(open_before)),
         "first_after": over(offered, "first"),
         "alone_after": over(offered, "alone"),
+        "first_where_settlement_was_promised": over(promised, "first"),
         "first_after_of_all_ambiguous": over(open_before, "first"),
     }
 

@@ -107,6 +107,10 @@ def _single_figures(summary):
         ["its median over the noise, before and after", _before_after(held["right_first"])],
         ["ambiguous, right first after the next experiment", _of(after["first_after"])],
         ["… right alone", _of(after["alone_after"])],
+        [
+            "… right first where the program said that this would settle it",
+            _of(after["first_where_settlement_was_promised"]),
+        ],
     ]
     rows = [row for row in rows if "–" not in row[1]]
     return _table(["over all", ""], rows) if rows else []

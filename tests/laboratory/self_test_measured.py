@@ -364,10 +364,24 @@ class Quality(unittest.TestCase):
                 {"before": before, "after": None, "failed": None},  # not with this rig
                 {"before": after, "after": None, "failed": None},  # nothing was open
                 {"before": before, "after": None, "failed": "exit status 3"},
+                {
+                    "before": before,
+                    "after": before,
+                    "failed": None,
+                    "promised": {"settles": True},
+                },
+                {
+                    "before": before,
+                    "after": after,
+                    "failed": None,
+                    "promised": {"settles": False},
+                },
             ]
         )
-        self.assertEqual(sums["ambiguous_before"], 3)
-        self.assertEqual((sums["first_after"]["count"], sums["first_after"]["of"]), (1, 2))
+        self.assertEqual(sums["ambiguous_before"], 5)
+        self.assertEqual((sums["first_after"]["count"], sums["first_after"]["of"]), (2, 4))
+        kept = sums["first_where_settlement_was_promised"]
+        self.assertEqual((kept["count"], kept["of"]), (0, 1))
 
 
 class Card(unittest.TestCase):
