@@ -81,10 +81,11 @@ pub fn investigated(
         true => f64::INFINITY,
         false => bench.innovation_square() * (1.0 + beyond),
     };
-    let again = searched(bench, (plain, None), (timed, enough), progress).sharpened();
+    let again = searched(bench, (plain, None), (timed, enough), progress);
     if again.found.unasked {
         return first;
     }
+    let again = again.sharpened();
     let after = again.left_of_all(&first.bench);
     let explains = counted(&again, after) < wanted;
     // The same causes with what happened in sight: their gain is measured where nothing does.

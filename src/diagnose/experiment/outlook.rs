@@ -10,7 +10,7 @@ use crate::causes::{CATALOGUE, Cause, find};
 use crate::diagnose::findings::{Findings, Verdict};
 use crate::diagnose::prepare::Bench;
 use crate::diagnose::search::Found;
-use crate::diagnose::trials::Trial;
+use crate::diagnose::trials::{Trial, trial_of};
 use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
 use crate::record::written::quantity;
@@ -76,7 +76,7 @@ fn fitted(findings: &Findings, found: &Found, whole: &Fit) -> Vec<(&'static dyn 
         if known.iter().any(|k| k.0.name() == rival) {
             continue;
         }
-        let trial = found.trials.iter().find(|t| t.cause.name() == rival);
+        let trial = trial_of(&found.trials, rival);
         let acting = trial.and_then(Trial::own);
         known.extend(find(rival).zip(acting.cloned()));
     }
