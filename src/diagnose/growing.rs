@@ -256,3 +256,61 @@ pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) ->
     }
     fit
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::causes::find;
+    use crate::diagnose::prepare::prepare;
+    use crate::diagnose::search::alone;
+    use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, baseline, refit};
+    use crate::joint::effect::Acting;
+    use crate::record::Record;
+    use crate::record::noise::tests::drawn;
+
+    /// A reading that comes late and drifts, of a sensor that bends.
+    #[test]
+    fn a_third_cause_is_tried_as_far_as_it_may_bring_a_set_to_what_is_wanted() {
+        let mut noise = drawn(20261127);
+        let time: Vec<f64> = (0..2000).map(|i| 0.01 * f64::from(i)).collect();
+        let force: Vec<f64> = time.iter().map(|t| 80.0 * (5.0 * t).sin()).collect();
+        let read = |t: &f64| {
+            let late = 1e-8 * 80.0 * (5.0 * t - 0.2).sin();
+            late + 2e5 * late * late + 2e-8 * t
+        };
+        let record = Record {
+            name: "bent".to_string(),
+            displacement: time.iter().map(|t| read(t) + 1e-8 * noise()).collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        let plain = baseline(&bench.train);
+        let first = alone(&bench, true, &plain);
+        let acting = |name: &str, values: &[f64]| Acting {
+            effect: find(name).unwrap().effect(),
+            values: values.to_vec(),
+        };
+        let two = [
+            acting("viscous_damping", &[1e7]),
+            acting("displacement_drift", &[1e-8, 0.0, 0.0]),
+        ];
+        let two = refit(&bench.train, &plain, two.to_vec());
+        let on = |wanted: f64| {
+            let grow = Grow {
+                bench: &bench,
+                timed: true,
+                effort: Effort::Full,
+                least: least(&bench.train, &plain),
+                wanted,
+            };
+            grow.on(two.clone(), &first)
+        };
+        let grown = on(f64::INFINITY);
+        assert!(grown.misfit < 0.5 * two.misfit, "{grown:?}");
+        assert_eq!(on(2.0 * grown.misfit).effects, grown.effects);
+        assert_eq!(on(0.6 * grown.misfit), two);
+    }
+}

@@ -4,9 +4,9 @@ use super::growing::leaves_structure;
 use super::prepare::Bench;
 use super::refinements::better;
 use super::search::Found;
-use super::trials::{SHAPES, alarm, dispersion, penalty};
+use super::trials::{SHAPES, UNREFINED, alarm, dispersion, penalty};
 use crate::causes::find;
-use crate::identify::{Fit, Prediction, Score, refit, scores};
+use crate::identify::{Fit, Prediction, Score, refit, refit_below, scores};
 use crate::joint::effect::Acting;
 use crate::joint::parameters::Parameter;
 use crate::outside::{OUTSIDE, Outsider};
@@ -60,9 +60,11 @@ pub fn one_does_it_all(bench: &Bench, found: &Found, timed: bool) -> bool {
         let passes_for = one.passes_for();
         set.iter().any(|a| passes_for.contains(&a.effect.name()))
     };
+    let margin = alarm(&bench.train);
+    let enough = least_likely(bench, (&found.best, margin), &found.baseline);
     usable(timed).into_par_iter().filter(passes).any(|one| {
-        let alone = fitted(bench, &found.baseline, one);
-        alone.is_some_and(|fit| likelier_by(bench, &fit, &found.best) > alarm(&bench.train))
+        let alone = fitted(bench, &found.baseline, one, enough);
+        alone.is_some_and(|fit| likelier_by(bench, &fit, &found.best) > margin)
     })
 }
 
@@ -82,9 +84,14 @@ fn in_place_of(
         true => found.baseline.clone(),
         false => refit(train, best, others),
     };
-    let fit = fitted(bench, &start, one)?;
     // A law that is to be named in no other's place has to prove itself as a cause has.
     let margin = if named.is_some() { 0.0 } else { alarm(train) };
+    let fit = fitted(
+        bench,
+        &start,
+        one,
+        least_likely(bench, (best, margin), &start),
+    )?;
     let values = &fit.effect(one.name())?.values;
     let said = one
         .parameters()
@@ -108,8 +115,18 @@ fn likelier_by(bench: &Bench, one: &Fit, other: &Fit) -> f64 {
     unlikely(other) - unlikely(one)
 }
 
-/// The best fit with a law beside a set, where its values are no cause's.
-fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider) -> Option<Fit> {
+/// Misfit above which no fit that grows from a start is likelier than another one by a margin.
+fn least_likely(bench: &Bench, (other, margin): (&Fit, f64), start: &Fit) -> f64 {
+    let train = &bench.train;
+    let fewer = penalty(train, other.free()) - penalty(train, start.free()) - margin;
+    other.misfit + dispersion(train, other) * fewer.max(0.0)
+}
+
+/// The best fit with a law beside a set, where its values are no cause's; without a prospect of a misfit below `enough`
+/// only begun.
+fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider, enough: f64) -> Option<Fit> {
+    // What a refinement takes away is not known before it is fitted.
+    let bound = enough + UNREFINED * (start.misfit - enough).max(0.0);
     let shapes = one.starts(&bench.scale).into_iter().map(|values| Acting {
         effect: one.effect(),
         values,
@@ -119,7 +136,10 @@ fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider) -> Option<Fit> {
     let fits = scored.into_iter().take(SHAPES).map(|score| {
         let mut effects = start.effects.clone();
         effects.push(score.acting);
-        let fit = refit(&bench.train, start, effects);
+        let fit = refit_below(&bench.train, start, effects, bound);
+        if fit.misfit > bound {
+            return fit;
+        }
         let place = fit.effects.len() - 1;
         let refined = one.refined(&fit.effects[place].values, &bench.scale);
         let nearby = fit.misfit;

@@ -106,7 +106,7 @@ pub(super) const PROMISING: f64 = 0.25 * ALARM;
 const FORETOLD: f64 = 20.0;
 
 /// Share of the fall that is wanted by which a law may stay behind before its refinements are fitted.
-const UNREFINED: f64 = 0.1;
+pub(super) const UNREFINED: f64 = 0.1;
 
 /// Share of the leader's fall by which a refit may stay behind that goes on where it ended.
 const NEAR: f64 = 0.02;
