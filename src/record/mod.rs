@@ -1,5 +1,6 @@
 //! A measurement as values. SI units.
 
+mod blended;
 pub mod calm;
 pub mod cycles;
 pub mod jumps;

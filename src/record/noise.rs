@@ -1,5 +1,6 @@
 //! The noise of a channel, read off what a model leaves or off the fastest variations.
 
+use super::blended::MOST_ALIKE;
 use super::spectrum::{FastNoise, fast_noise};
 
 /// Noise of one channel.
@@ -60,9 +61,6 @@ fn fast_beneath(deviation: f64, residual: &[f64]) -> Option<FastNoise> {
 /// by −4/6, two apart by 1/6.
 const SHARED: f64 = 35.0 / 18.0;
 
-/// Correlation of neighbours that noise is taken for at most.
-const MOST_ALIKE: f64 = 0.99;
-
 /// What a sample counts for in a mean whose neighbours vary with it.
 pub fn independence(autoregression: f64) -> f64 {
     (1.0 - autoregression) / (1.0 + autoregression)
@@ -73,7 +71,7 @@ pub fn independence(autoregression: f64) -> f64 {
 /// Its own variance and correlation of neighbours, unless the fast part of its spectrum belongs to
 /// noise of less than half that variance at most: the rest is then structure that a model misses.
 pub fn from_residual(residual: &[f64]) -> Noise {
-    let (deviation, autoregression) = moments(&[residual]);
+    let (deviation, autoregression) = moments(residual);
     let (deviation, autoregression) = match fast_beneath(deviation, residual) {
         Some(fast) => (fast.deviation, fast.autoregression),
         None => (deviation, autoregression),
@@ -112,29 +110,22 @@ pub(super) fn of_thirds(differences: &[f64], samples: usize) -> Noise {
     }
 }
 
-/// Standard deviation and lag-one correlation, the latter without the bias of short parts.
-pub(super) fn moments(parts: &[&[f64]]) -> (f64, f64) {
-    let (mut square, mut product, mut count, mut pairs) = (0.0, 0.0, 0.0, 0.0);
-    for part in parts {
-        square += part.iter().map(|v| v * v).sum::<f64>();
-        count += part.len() as f64;
-        product += part.windows(2).map(|w| w[0] * w[1]).sum::<f64>();
-        pairs += (part.len().max(1) - 1) as f64;
-    }
-    if square <= 0.0 || pairs <= 0.0 {
+/// Standard deviation and lag-one correlation.
+fn moments(residual: &[f64]) -> (f64, f64) {
+    let count = residual.len() as f64;
+    let square = residual.iter().map(|v| v * v).sum::<f64>() / count;
+    let product: f64 = residual.windows(2).map(|w| w[0] * w[1]).sum();
+    if square <= 0.0 || count < 2.0 {
         return (0.0, 0.0);
     }
-    let correlation = (product / pairs) / (square / count);
+    let correlation = product / (count - 1.0) / square;
     // A correlation within two standard errors of zero is taken as none.
     let significant = correlation > 2.0 / count.sqrt();
-    (
-        (square / count).sqrt(),
-        if significant {
-            correlation.min(MOST_ALIKE)
-        } else {
-            0.0
-        },
-    )
+    let correlation = match significant {
+        true => correlation.min(MOST_ALIKE),
+        false => 0.0,
+    };
+    (square.sqrt(), correlation)
 }
 
 #[cfg(test)]

@@ -1,15 +1,16 @@
 //! Noise of a channel where cycles of the drive repeat: no model is needed then.
 
+use super::blended::{Blended, moments};
 use super::cycles::{Cycle, alike, as_long, cycles, span};
-use super::noise::{Noise, moments};
+use super::noise::Noise;
 use super::peaks::between;
 
 /// Noise from steady cycles: second differences over three equal cycles of the drive, so that a
 /// uniform change from cycle to cycle (drift, wear) cancels as well as the response itself.
 ///
-/// `response(t−T) − 2 response(t) + response(t+T)` has `4 + 2s` times the noise's variance, with
-/// `s` the sum of squares of the interpolation weights. `None` where fewer than 150 samples lie in
-/// such triples.
+/// `response(t−T) − 2 response(t) + response(t+T)` has `4 + 2s` times the variance of white noise, with
+/// `s` the sum of squares of the interpolation weights; of other noise see [`Blended`]. `None` where fewer than 150
+/// samples lie in such triples.
 pub fn from_repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
     either_way(drive, |drive| repeats(drive, response))
 }
@@ -30,12 +31,12 @@ fn repeats(drive: &[f64], response: &[f64]) -> Option<Noise> {
         differences((drive, response), &kinked, triple, skip)
     };
     // A fourth equal cycle in front makes sure that the memory of another level has closed.
-    let settled: Vec<Vec<f64>> = found
+    let settled: Vec<Blended> = found
         .windows(4)
         .filter(|w| w.windows(2).all(|pair| alike(&pair[0], &pair[1])))
         .filter_map(|w| differences(&w[1..], true))
         .collect();
-    let any: Vec<Vec<f64>> = if count(&settled) >= ENOUGH {
+    let any: Vec<Blended> = if count(&settled) >= ENOUGH {
         settled
     } else {
         found
@@ -82,13 +83,13 @@ const ORDERS: [usize; 3] = [3, 4, 5];
 const CONVERGED: f64 = 0.9;
 
 /// The noise of calm parts of differences.
-fn noise_of(parts: Vec<Vec<f64>>) -> Option<Noise> {
+fn noise_of(parts: Vec<Blended>) -> Option<Noise> {
     let calm = calm(parts);
     let samples = count(&calm);
     if samples < ENOUGH {
         return None;
     }
-    let (deviation, autoregression) = moments(&calm.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    let (deviation, autoregression) = moments(&calm.iter().collect::<Vec<_>>());
     Some(Noise {
         deviation,
         autoregression,
@@ -100,8 +101,8 @@ fn noise_of(parts: Vec<Vec<f64>>) -> Option<Noise> {
 /// Fewest samples in repeated cycles from which noise is estimated.
 const ENOUGH: usize = 150;
 
-fn count(parts: &[Vec<f64>]) -> usize {
-    parts.iter().map(Vec::len).sum()
+fn count(parts: &[Blended]) -> usize {
+    parts.iter().map(|part| part.differences.len()).sum()
 }
 
 /// Second difference of the drive, over its amplitude, up to which cycles repeat at all.
@@ -131,14 +132,14 @@ fn kinked(drive: &[f64]) -> Vec<bool> {
     near
 }
 
-/// Differences of the response over a run of cycles, of an order one less than their count, scaled to the noise's
-/// own variance; `None` where those of the drive do not vanish well enough.
+/// Differences of the response over a run of cycles, of an order one less than their count; `None` where those of the
+/// drive do not vanish well enough.
 fn differences(
     (drive, response): (&[f64], &[f64]),
     kinked: &[bool],
     run: &[Cycle],
     skip: usize,
-) -> Option<Vec<f64>> {
+) -> Option<Blended> {
     let weights = binomial(run.len());
     let place = run.len() / 2;
     let middle = &run[place];
@@ -149,32 +150,33 @@ fn differences(
         .collect();
     let sampled = others.iter().all(|(shift, _)| shift.fract() == 0.0);
     let difference = |channel: &[f64], i: usize| {
-        let own = weights[place];
-        let mut sum = (own * channel[i], own * own);
+        let mut sum = weights[place] * channel[i];
         for (shift, weight) in &others {
-            let (value, squares) = interpolate(channel, i as f64 + shift)?;
-            sum = (sum.0 + weight * value, sum.1 + weight * weight * squares);
+            sum += weight * interpolate(channel, i as f64 + shift)?;
         }
         Some(sum)
     };
-    let mut part = Vec::new();
+    let mut part = Blended {
+        differences: Vec::new(),
+        taps: vec![[weights[place], 0.0, 0.0, 0.0]],
+    };
+    let read = |(shift, weight): &(f64, f64)| taps(shift - shift.floor()).map(|tap| weight * tap);
+    part.taps.extend(others.iter().map(read));
     let (mut unequal, mut scattered) = (0.0, 0.0);
     let smooth = |i: &usize| sampled || !kinked[*i];
     for i in (middle.start + skip..middle.end).filter(smooth) {
-        if let (Some((apart, variance)), Some((driven, _))) =
-            (difference(response, i), difference(drive, i))
-        {
+        if let (Some(apart), Some(driven)) = (difference(response, i), difference(drive, i)) {
             unequal += driven * driven;
             scattered += apart * apart;
-            part.push(apart / variance.sqrt());
+            part.differences.push(apart);
         }
     }
-    let root = |sum: f64| (sum / part.len().max(1) as f64).sqrt();
+    let root = |sum: f64| (sum / part.differences.len().max(1) as f64).sqrt();
     let follows =
         span(&response[middle.start..middle.end]) / span(&drive[middle.start..middle.end]);
     let repeats = root(unequal) < UNEQUAL * middle.amplitude
         && root(unequal) * follows <= FOLLOWED * root(scattered);
-    (repeats && part.len() > 8).then_some(part)
+    (repeats && part.differences.len() > 8).then_some(part)
 }
 
 /// Weights of a difference over so many values: binomial coefficients of alternating sign.
@@ -195,25 +197,27 @@ fn binomial(count: usize) -> Vec<f64> {
 ///
 /// A cycle of correlated noise holds few independent samples, `n (1 − a²) / (1 + a²)` for a variance,
 /// so its variance scatters more; the calmest cycles alone would make it too small and too white.
-fn calm(parts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let square = |part: &[f64]| part.iter().map(|v| v * v).sum::<f64>() / part.len() as f64;
-    let mut squares: Vec<f64> = parts.iter().map(|part| square(part)).collect();
+fn calm(parts: Vec<Blended>) -> Vec<Blended> {
+    let mut squares: Vec<f64> = parts.iter().map(Blended::mean_square).collect();
     squares.sort_by(f64::total_cmp);
     let Some(&quartile) = squares.get(squares.len() / 4) else {
         return parts;
     };
     let mean_length = count(&parts) as f64 / parts.len() as f64;
-    let within = |most: f64| -> Vec<&[f64]> {
-        let parts = parts.iter().map(Vec::as_slice);
-        parts
-            .filter(|part| square(part) <= most * quartile)
-            .collect()
+    let within = |most: f64| -> Vec<&Blended> {
+        let calm = |part: &&Blended| part.mean_square() <= most * quartile;
+        parts.iter().filter(calm).collect()
     };
     let mut most: f64 = 2.0;
     for _ in 0..8 {
         let calm = within(most);
         // From too few samples no correlation can be told.
-        if calm.iter().map(|part| part.len()).sum::<usize>() < ENOUGH {
+        if calm
+            .iter()
+            .map(|part| part.differences.len())
+            .sum::<usize>()
+            < ENOUGH
+        {
             break;
         }
         let (_, a) = moments(&calm);
@@ -225,7 +229,7 @@ fn calm(parts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         }
         most = wider;
     }
-    within(most).into_iter().map(<[f64]>::to_vec).collect()
+    within(most).into_iter().cloned().collect()
 }
 
 /// Standard deviations above its mean up to which a cycle's variance passes for that of noise.
@@ -239,7 +243,7 @@ fn shift(drive: &[f64], cycle: &Cycle, guess: f64) -> f64 {
         let (mut product, mut norm) = (0.0, 0.0);
         for i in cycle.start..cycle.end {
             let at = i as f64 + shift;
-            if let (Some((here, _)), Some((ahead, _)), Some((behind, _))) = (
+            if let (Some(here), Some(ahead), Some(behind)) = (
                 interpolate(drive, at),
                 interpolate(drive, at + 0.5),
                 interpolate(drive, at - 0.5),
@@ -267,25 +271,25 @@ fn shift(drive: &[f64], cycle: &Cycle, guess: f64) -> f64 {
     }
 }
 
-/// Cubic Lagrange interpolation at a fractional index, and the sum of squares of its weights.
-fn interpolate(channel: &[f64], at: f64) -> Option<(f64, f64)> {
+/// Cubic Lagrange interpolation at a fractional index.
+fn interpolate(channel: &[f64], at: f64) -> Option<f64> {
     let base = at.floor();
-    let s = at - base;
+    let weights = taps(at - base);
     let base = base as isize;
     if base < 1 || base + 2 >= channel.len() as isize {
         return None;
     }
     let b = base as usize;
-    let weights = [
+    let both = weights.iter().zip(&channel[b - 1..b + 3]);
+    Some(both.map(|(w, y)| w * y).sum())
+}
+
+/// Weights of the four samples about a place that lies a share of a step behind the second.
+fn taps(s: f64) -> [f64; 4] {
+    [
         -s * (s - 1.0) * (s - 2.0) / 6.0,
         (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
         -(s + 1.0) * s * (s - 2.0) / 2.0,
         (s + 1.0) * s * (s - 1.0) / 6.0,
-    ];
-    let value = weights
-        .iter()
-        .zip(&channel[b - 1..b + 3])
-        .map(|(w, y)| w * y)
-        .sum();
-    Some((value, weights.iter().map(|w| w * w).sum()))
+    ]
 }

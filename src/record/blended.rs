@@ -1,0 +1,111 @@
+//! Noise of differences between cycles, some of whose values were read between samples.
+
+/// Weights of the samples of one cycle in a difference, four neighbours each.
+type Taps = [f64; 4];
+
+/// Differences over a run of cycles, and the samples that each is made of.
+#[derive(Debug, Clone)]
+pub(super) struct Blended {
+    /// One difference per sample of the middle cycle, in the channel's unit.
+    pub(super) differences: Vec<f64>,
+    /// Weights of each cycle's samples.
+    pub(super) taps: Vec<Taps>,
+}
+
+/// Correlation of neighbours that noise is taken for at most.
+pub(super) const MOST_ALIKE: f64 = 0.99;
+
+/// Halvings of the range of correlations: to a part in 10⁹.
+const HALVINGS: usize = 30;
+
+/// Coefficients of the powers of the correlation of neighbours, from the zeroth on.
+type Powers = [f64; 5];
+
+impl Blended {
+    /// Covariance of two differences `lag` samples apart, 0 or 1, of noise of unit variance whose neighbours within a cycle
+    /// correlate by `a`, and those of different cycles not, by powers of `a`.
+    ///
+    /// `Σ_j Σ_k Σ_l h_jk h_jl a^|lag + k − l|`: neighbours that were read between samples share those, and of slow noise
+    /// reading between samples takes less away.
+    fn covariance(&self, lag: usize) -> Powers {
+        let mut powers = Powers::default();
+        for h in &self.taps {
+            for (k, l) in (0..4).flat_map(|k| (0..4).map(move |l| (k, l))) {
+                powers[(lag + k).abs_diff(l)] += h[k] * h[l];
+            }
+        }
+        powers
+    }
+
+    /// Mean square over that of white noise of unit variance.
+    pub(super) fn mean_square(&self) -> f64 {
+        let sum: f64 = self.differences.iter().map(|d| d * d).sum();
+        sum / self.differences.len() as f64 / self.covariance(0)[0]
+    }
+}
+
+/// Value of a polynomial of the correlation of neighbours.
+fn at(a: f64, powers: &Powers) -> f64 {
+    powers.iter().rev().fold(0.0, |sum, c| sum * a + c)
+}
+
+/// Standard deviation and correlation of neighbours of the noise whose differences these are, the latter without the bias of
+/// short parts: that of which these have the mean product of neighbours over their mean square.
+pub(super) fn moments(parts: &[&Blended]) -> (f64, f64) {
+    let (mut squares, mut products, mut count) = (0.0, 0.0, 0.0);
+    let (mut square, mut product) = (Powers::default(), Powers::default());
+    for part in parts {
+        let samples = part.differences.len() as f64;
+        count += samples;
+        squares += part.differences.iter().map(|d| d * d).sum::<f64>();
+        products += part
+            .differences
+            .windows(2)
+            .map(|w| w[0] * w[1])
+            .sum::<f64>();
+        for power in 0..square.len() {
+            square[power] += samples * part.covariance(0)[power];
+            product[power] += (samples - 1.0).max(0.0) * part.covariance(1)[power];
+        }
+    }
+    if squares <= 0.0 || products == 0.0 {
+        return (0.0, 0.0);
+    }
+    let alike = |a: f64| at(a, &product) / at(a, &square);
+    let seen = products / squares;
+    // A correlation within two standard errors of none is taken as none.
+    let (mut least, mut most) = match seen - alike(0.0) > 2.0 / count.sqrt() {
+        true => (0.0, MOST_ALIKE),
+        false => (0.0, 0.0),
+    };
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (least + most);
+        match alike(middle) < seen {
+            true => least = middle,
+            false => most = middle,
+        }
+    }
+    ((squares / at(most, &square)).sqrt(), most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one cycle as it is the differences are noise itself; a mean of two neighbours has the correlation of a mean.
+    #[test]
+    fn differences_covary_as_the_samples_they_share() {
+        let blended = |taps: Taps| Blended {
+            differences: Vec::new(),
+            taps: vec![taps],
+        };
+        let (plain, mean) = (blended([2.0, 0.0, 0.0, 0.0]), blended([0.0, 0.5, 0.5, 0.0]));
+        for a in [0.0, 0.3, 0.9] {
+            let of = |one: &Blended, lag| at(a, &one.covariance(lag));
+            assert_eq!((of(&plain, 0), of(&plain, 1)), (4.0, 4.0 * a));
+            // Var = (1 + a)/2, and (1 + 2a + a²)/4 one sample apart.
+            assert!((of(&mean, 0) - (1.0 + a) / 2.0).abs() < 1e-12);
+            assert!((of(&mean, 1) - (1.0 + a).powi(2) / 4.0).abs() < 1e-12);
+        }
+    }
+}
