@@ -18,7 +18,7 @@ pub(super) const FURTHER_SHARE: f64 = 0.10;
 /// hundred left less than 0.062 of it.
 const NEARLY_RIGHT: f64 = 0.07;
 
-/// Part of that share which is enough of a set that leaves nothing beyond scatter.
+/// Part of that share which is enough of a set that leaves nothing beyond scatter, that of the noise's estimate included.
 const COMPLETE: f64 = 0.43;
 
 /// Share of its rows, beyond scatter, from which what a set leaves may be a second cause.
@@ -228,7 +228,7 @@ pub(super) fn least(problem: &Problem, baseline: &Fit) -> f64 {
 /// noise is what a model leaves, that tells nothing.
 pub(super) fn share(bench: &Bench, fit: &Fit, least: f64) -> f64 {
     let problem = &bench.train;
-    let left = places::beyond_scatter(problem, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
+    let left = places::beyond_doubt(bench, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
     let wanted = match bench.noise_is_repeated() {
         true => COMPLETE + (1.0 - COMPLETE) * left.min(1.0),
         false => 1.0,

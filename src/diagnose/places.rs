@@ -157,6 +157,13 @@ pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
     fit.misfit - rows - scatter(rows)
 }
 
+/// The same, beyond what the noise's variance may be wrong by as well.
+pub fn beyond_doubt(bench: &Bench, fit: &Fit) -> f64 {
+    let rows = bench.train.rows() as f64;
+    let doubt = deviation(rows).hypot(rows * bench.noise_error());
+    fit.misfit - rows - SCATTER * doubt
+}
+
 /// What a sum of squares of noise alone may exceed its mean by, in noise variances.
 pub fn scatter(rows: f64) -> f64 {
     SCATTER * deviation(rows)

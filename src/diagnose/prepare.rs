@@ -158,21 +158,24 @@ impl Bench {
     /// Largest mean whitened square that a model without error may leave, where repeated cycles gave
     /// the noise, and it is no finer than its channel: one, what the estimate of the noise's variance scatters by, and what laws that are
     /// only nearly right may leave.
-    ///
-    /// `n` samples of correlation `a` tell a variance to `√(2 (1 + a²) / ((1 − a²) n))` of itself.
     pub fn most_left(&self) -> Option<f64> {
         if (0..self.noise.len()).any(|k| self.is_finer_than_read(k)) {
             return None;
         }
+        self.noise_is_repeated()
+            .then_some(1.0 + NEARLY_RIGHT + SCATTER * self.noise_error())
+    }
+
+    /// Standard error of the noise's variance, as a share of it: `n` samples of correlation `a` tell it to
+    /// `√(2 (1 + a²) / ((1 − a²) n))`.
+    pub fn noise_error(&self) -> f64 {
         let independent: f64 = self
             .noise
             .iter()
             .map(|n| (n.autoregression.powi(2), n.told_by()))
             .map(|(square, samples)| samples * (1.0 - square) / (1.0 + square))
             .sum();
-        let scatter = (2.0 / independent.max(1.0)).sqrt();
-        self.noise_is_repeated()
-            .then_some(1.0 + NEARLY_RIGHT + SCATTER * scatter)
+        (2.0 / independent.max(1.0)).sqrt()
     }
 
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.
