@@ -2,11 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// Samples of a segment; neighbouring segments overlap by half.
-const SEGMENT: usize = 128;
+/// Samples of a segment, the most of which there are enough; neighbouring segments overlap by half.
+///
+/// Of drawn noise of any correlation 150 samples in the shortest pass for slower structure no more often than 600 in
+/// the longest.
+const SEGMENTS: [usize; 3] = [128, 64, 32];
 
-/// First bin used: what is slower than an eighth of the sampling rate's half may be structure.
-const FIRST: usize = SEGMENT / 16;
+/// Share of a segment's bins that are not used: what is slower than an eighth of the sampling rate's half may be
+/// structure.
+const SLOW: usize = 16;
 
 /// Fewest segments whose median tells a spectrum.
 const FEWEST: usize = 7;
@@ -31,10 +35,12 @@ const POSSIBLE: f64 = 2.0;
 ///
 /// The periodogram is a median over segments, so that kinks and bursts of structure count little.
 pub fn fast_noise(residual: &[f64]) -> Option<FastNoise> {
-    let spectrum = spectrum(residual)?;
-    let band = FIRST..SEGMENT / 2;
+    let enough = |segment: &usize| 2 * residual.len() / segment > FEWEST;
+    let segment = SEGMENTS.into_iter().find(enough)?;
+    let spectrum = spectrum(residual, segment);
+    let band = segment / SLOW..segment / 2;
     let shape = |a: f64, bin: usize| {
-        1.0 / (1.0 - 2.0 * a * (TAU * bin as f64 / SEGMENT as f64).cos() + a * a)
+        1.0 / (1.0 - 2.0 * a * (TAU * bin as f64 / segment as f64).cos() + a * a)
     };
     let innovation = |a: f64| {
         let sum: f64 = band.clone().map(|bin| spectrum[bin] / shape(a, bin)).sum();
@@ -46,7 +52,7 @@ pub fn fast_noise(residual: &[f64]) -> Option<FastNoise> {
     };
     let correlations = || (0..100).map(|step| 0.01 * f64::from(step));
     let best = correlations().min_by(|&x, &y| against(x).total_cmp(&against(y)))?;
-    let samples = band.len() as f64 * residual.len() as f64 / SEGMENT as f64;
+    let samples = band.len() as f64 * residual.len() as f64 / segment as f64;
     let deviation = |a: f64| (innovation(a) / (1.0 - a * a)).sqrt();
     let most = correlations()
         .filter(|&a| 2.0 * samples * (against(a) - against(best)) <= POSSIBLE)
@@ -61,24 +67,21 @@ pub fn fast_noise(residual: &[f64]) -> Option<FastNoise> {
 
 /// Median periodogram over overlapping segments under a Hann window, scaled so that white noise of
 /// unit variance gives one in every bin.
-fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
+fn spectrum(residual: &[f64], segment: usize) -> Vec<f64> {
     let starts: Vec<usize> = (0..)
-        .map(|k| k * SEGMENT / 2)
-        .take_while(|start| start + SEGMENT <= residual.len())
+        .map(|k| k * segment / 2)
+        .take_while(|start| start + segment <= residual.len())
         .collect();
-    if starts.len() < FEWEST {
-        return None;
-    }
-    let phase = |i: usize| TAU * i as f64 / SEGMENT as f64;
-    let window: Vec<f64> = (0..SEGMENT)
-        .map(|i| (PI * i as f64 / SEGMENT as f64).sin().powi(2))
+    let phase = |i: usize| TAU * i as f64 / segment as f64;
+    let window: Vec<f64> = (0..segment)
+        .map(|i| (PI * i as f64 / segment as f64).sin().powi(2))
         .collect();
     let power: f64 = window.iter().map(|w| w * w).sum();
-    let turns: Vec<(f64, f64)> = (0..SEGMENT).map(|i| phase(i).sin_cos()).collect();
-    let mut bins = vec![Vec::new(); SEGMENT / 2];
+    let turns: Vec<(f64, f64)> = (0..segment).map(|i| phase(i).sin_cos()).collect();
+    let mut bins = vec![Vec::new(); segment / 2];
     for start in starts {
-        let part = &residual[start..start + SEGMENT];
-        let mean = part.iter().sum::<f64>() / SEGMENT as f64;
+        let part = &residual[start..start + segment];
+        let mean = part.iter().sum::<f64>() / segment as f64;
         let part: Vec<f64> = part
             .iter()
             .zip(&window)
@@ -87,7 +90,7 @@ fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
         for (bin, values) in bins.iter_mut().enumerate() {
             let (mut real, mut imaginary) = (0.0, 0.0);
             for (i, x) in part.iter().enumerate() {
-                let (sine, cosine) = turns[i * bin % SEGMENT];
+                let (sine, cosine) = turns[i * bin % segment];
                 real += x * cosine;
                 imaginary += x * sine;
             }
@@ -99,7 +102,7 @@ fn spectrum(residual: &[f64]) -> Option<Vec<f64>> {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2] / std::f64::consts::LN_2
     };
-    Some(bins.iter_mut().map(median).collect())
+    bins.iter_mut().map(median).collect()
 }
 
 #[cfg(test)]
@@ -107,10 +110,10 @@ mod tests {
     use super::*;
 
     /// Coloured noise of unit variance, nearly normal, beneath a slow wave five times as large.
-    fn record(correlation: f64, wave: f64) -> Vec<f64> {
+    fn record(length: u32, correlation: f64, wave: f64) -> Vec<f64> {
         let mut random = crate::record::noise::tests::drawn(7);
         let mut last = 0.0;
-        (0..6000)
+        (0..length)
             .map(|i| {
                 let normal = (0..12).map(|_| random()).sum::<f64>() - 6.0;
                 last = correlation * last + (1.0 - correlation * correlation).sqrt() * normal;
@@ -123,7 +126,7 @@ mod tests {
     fn noise_is_told_with_and_without_a_slow_wave_above_it() {
         for correlation in [0.0, 0.5, 0.8] {
             for wave in [0.0, 5.0] {
-                let noise = fast_noise(&record(correlation, wave)).unwrap();
+                let noise = fast_noise(&record(6000, correlation, wave)).unwrap();
                 let off = (noise.autoregression - correlation).abs();
                 assert!(off < 0.07, "{correlation}: {noise:?}");
                 let off = (noise.deviation - 1.0).abs();
@@ -135,5 +138,15 @@ mod tests {
             }
         }
         assert_eq!(fast_noise(&[1.0; 100]), None);
+    }
+
+    /// White noise beneath a wave of five times its size, in records of 150 to 600 samples.
+    #[test]
+    fn of_short_records_noise_is_told_in_shorter_segments() {
+        for length in [150, 300, 450, 600] {
+            let noise = fast_noise(&record(length, 0.0, 5.0)).unwrap();
+            assert!((0.7..1.4).contains(&noise.deviation), "{length}: {noise:?}");
+            assert!(noise.most < 2.0, "{length}: {noise:?}");
+        }
     }
 }
