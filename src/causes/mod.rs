@@ -146,6 +146,10 @@ pub trait Cause: Effect {
     fn needs_time(&self) -> bool {
         false
     }
+    /// True where it happens once, at a time of its own, so that another test need not have it.
+    fn happens_once(&self) -> bool {
+        false
+    }
     /// Joint or measuring chain, by the place where it acts.
     fn kind(&self) -> Kind {
         if self.place().is_measurement() {

@@ -128,6 +128,9 @@ impl Cause for OffsetStep {
     fn needs_time(&self) -> bool {
         true
     }
+    fn happens_once(&self) -> bool {
+        true
+    }
     /// What moves for as long as a jump may take at most may have drifted; a specimen that settles does so while the force
     /// is higher than it ever was, and a spring that gave way by so much reads as a load cell that jumped.
     fn double(&self, values: &[f64], truth: &Trajectory) -> Option<&'static str> {

@@ -122,7 +122,7 @@ pub fn errors(bench: &Bench, predictions: &[Prediction]) -> Errors {
         let form = bench.whole.operators.form;
         for cycle in cycles(input)
             .iter()
-            .filter(|c| held[c.start] && held[c.end - 1])
+            .filter(|c| held[c.start..c.end].iter().all(|held| *held))
         {
             let loss = |y: &[f64]| energy(form, input, y, cycle.start, cycle.end);
             let measured = loss(judged);

@@ -301,15 +301,19 @@ impl Investigation {
 
     /// True where this is likelier than another.
     pub(super) fn is_likelier_than(&self, other: &Investigation) -> bool {
-        let scale = self.dispersion().min(other.dispersion());
-        self.unlikeliness(scale) < other.unlikeliness(scale)
+        let common = Common::of([self, other]);
+        self.unlikeliness(common) < other.unlikeliness(common)
     }
 
-    /// Twice the negative logarithm of the likelihood, whose misfit counts over a common dispersion, and `ln n` for
-    /// every value that the model chose: those of its causes, of beginnings that are not a virgin joint's, and
-    /// whether wear goes on; every cause is as unlikely as what is against the rule.
-    pub(super) fn unlikeliness(&self, dispersion: f64) -> f64 {
+    /// Twice the negative logarithm of the likelihood over that of noise of a common variance, whose misfit counts over a
+    /// common dispersion, and `ln n` for every value that the model chose: those of its causes, of beginnings that are
+    /// not a virgin joint's, and whether wear goes on; every cause is as unlikely as what is against the rule.
+    ///
+    /// A sample that one of two weighs and the other does not, held out or struck or behind a turn that nothing tells of,
+    /// speaks for neither as far as it is noise.
+    pub(super) fn unlikeliness(&self, common: Common) -> f64 {
         let train = &self.bench.train;
+        let rows = train.rows() as f64;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
         let causes = &self.found.best.effects;
         let of_beginnings: usize = self.beginnings().map(Beginning::values).sum();
@@ -317,7 +321,34 @@ impl Investigation {
             train,
             self.found.best.free() + of_beginnings + usize::from(train.wears_on),
         );
-        self.bench.innovations() + misfit / dispersion + chosen + causes.len() as f64 * ALARM
+        self.bench.innovations() - rows * common.innovation + misfit / common.dispersion - rows
+            + chosen
+            + causes.len() as f64 * ALARM
+    }
+}
+
+/// What the misfits of several searches of the same records are compared over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Common {
+    /// The least dispersion of any.
+    dispersion: f64,
+    /// Logarithm of the noise's innovation squared, their mean.
+    innovation: f64,
+}
+
+impl Common {
+    /// That of the given searches.
+    pub(super) fn of<'a>(all: impl IntoIterator<Item = &'a Investigation>) -> Common {
+        let (mut dispersion, mut sum, mut count) = (f64::INFINITY, 0.0, 0.0);
+        for one in all {
+            dispersion = dispersion.min(one.dispersion());
+            sum += one.bench.innovation_square().ln();
+            count += 1.0;
+        }
+        Common {
+            dispersion,
+            innovation: sum / f64::max(count, 1.0),
+        }
     }
 }
 

@@ -56,7 +56,7 @@ pub fn levels(
     let mut all = Vec::new();
     for (k, held) in bench.held.iter().enumerate() {
         let (input, _) = bench.whole.channels(k);
-        let unseen = |c: &Cycle| held[c.start] && held[c.end - 1];
+        let unseen = |c: &Cycle| held[c.start..c.end].iter().all(|held| *held);
         let found = cycles(input);
         let joins =
             |a: &Cycle, b: &Cycle| a.end == b.start && alike(a, b) && unseen(a) == unseen(b);

@@ -69,10 +69,13 @@ const LOUDEST: f64 = 25.0;
 /// out by the largest correlation that the noise may have as well: the lesser significance of both is told,
 /// and the shares by the likeliest.
 pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
-    let known: Vec<f64> = noise.iter().map(|n| n.autoregression).collect();
-    let most: Vec<f64> = noise.iter().map(Noise::most_alike).collect();
-    let quiet = quiet_part(noise);
-    let [taken, alike] = [known, most].map(|a| whitened_by(problem, predictions, (&a, quiet)));
+    let known = noise.to_vec();
+    let most = noise.iter().map(|n| Noise {
+        autoregression: n.most_alike(),
+        ..*n
+    });
+    let [taken, alike] =
+        [known, most.collect()].map(|noise| whitened_by(problem, predictions, &noise));
     Structure {
         significance: taken.significance.min(alike.significance),
         ringing: taken.ringing.min(alike.ringing),
@@ -80,25 +83,11 @@ pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise])
     }
 }
 
-/// Part of the noise's variance below which what scatters is no concern: a tenth in rms.
+/// Part of the noise's variance below which what scatters is no concern, a tenth in rms: beside less scatter than that
+/// structure is nothing that matters.
 const QUIET: f64 = 0.01;
 
-/// That part of the least innovation of any record: beside less scatter than that structure is nothing that matters.
-fn quiet_part(noise: &[Noise]) -> f64 {
-    let innovations = noise.iter().map(|n| n.innovation().powi(2));
-    let least = innovations.fold(f64::INFINITY, f64::min);
-    if least.is_finite() {
-        QUIET * least
-    } else {
-        0.0
-    }
-}
-
-fn whitened_by(
-    problem: &Problem,
-    predictions: &[Prediction],
-    (alike, least): (&[f64], f64),
-) -> Structure {
+fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
     let mut bins: Vec<Bin> = Vec::new();
     let mut correlations: Vec<f64> = Vec::new();
     let mut ringing = 0.0_f64;
@@ -107,16 +96,29 @@ fn whitened_by(
         let record = &problem.records[k];
         let mut white = Vec::with_capacity(judged.len());
         let mut before = None;
+        // Of records with different noise each counts by its own.
+        let innovation = noise[k].innovation();
+        let unit = if innovation > 0.0 { innovation } else { 1.0 };
         for (i, (&y, &p)) in judged.iter().zip(&prediction.judged).enumerate() {
-            white.push(whiten(alike[k], y - p, before).0);
+            white.push(whiten(noise[k].autoregression, y - p, before).0 / unit);
             before = record.counts(i).then_some(y - p);
         }
-        correlations.push(correlation(&white, 1));
-        let chance = CHANCE / (white.len().max(1) as f64).sqrt();
-        let lags = (2..=FARTHEST).map(|lag| correlation(&white, lag).abs() - chance);
+        // What no fit answers for is no witness of how alike neighbours are either.
+        let stretches = white.chunks_exact(STRETCH).enumerate();
+        let all_count = |at: usize| (at * STRETCH..(at + 1) * STRETCH).all(|i| record.counts(i));
+        let stretches = stretches.filter(|(at, _)| all_count(*at));
+        let stretches: Vec<&[f64]> = stretches.map(|(_, stretch)| stretch).collect();
+        correlations.push(correlation(&stretches, 1));
+        let chance = CHANCE / ((STRETCH * stretches.len()).max(1) as f64).sqrt();
+        let lags = (2..=FARTHEST).map(|lag| correlation(&stretches, lag).abs() - chance);
         ringing = lags.fold(ringing, f64::max);
-        for (from, to, phases) in pieces(input) {
-            let cuts = cuts(input, from, to);
+        for Piece {
+            from,
+            to,
+            phases,
+            cuts,
+        } in pieces(input)
+        {
             let mut own: Vec<Bin> = (0..phases)
                 .map(|phase| {
                     let (start, end) = cuts[0];
@@ -144,7 +146,7 @@ fn whitened_by(
         .map(|b| b.square - b.sum * b.sum / b.count)
         .sum();
     let free = (total - bins.len() as f64).max(1.0);
-    let variance = (within / free).max(least);
+    let variance = (within / free).max(QUIET);
     let correlation = correlations.iter().fold(0.0_f64, |most, c| most.max(*c));
     if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
@@ -208,9 +210,9 @@ const CHANCE: f64 = 3.0;
 
 /// Correlation of samples `lag` apart about the means of short stretches, so that slow structure does not pass
 /// for it.
-fn correlation(white: &[f64], lag: usize) -> f64 {
+fn correlation(stretches: &[&[f64]], lag: usize) -> f64 {
     let (mut square, mut product) = (0.0, 0.0);
-    for stretch in white.chunks_exact(STRETCH) {
+    for stretch in stretches {
         let mean = stretch.iter().sum::<f64>() / STRETCH as f64;
         square += stretch.iter().map(|w| (w - mean).powi(2)).sum::<f64>();
         let pairs = stretch.iter().zip(&stretch[lag..]);
@@ -266,9 +268,25 @@ impl Bin {
     }
 }
 
-/// Load levels (with phases to fold them over) and what lies between them.
-fn pieces(input: &[f64]) -> Vec<(usize, usize, usize)> {
+/// A load level or what lies between two, `from..to`.
+struct Piece {
+    from: usize,
+    to: usize,
+    /// Phases to fold it over.
+    phases: usize,
+    /// Its cycles; the piece itself where it holds none.
+    cuts: Vec<(usize, usize)>,
+}
+
+/// Load levels, of four equal cycles at most, and what lies between them.
+fn pieces(input: &[f64]) -> Vec<Piece> {
     let found = cycles(input);
+    let between = |from: usize, to: usize, phases: usize| Piece {
+        from,
+        to,
+        phases,
+        cuts: vec![(from, to)],
+    };
     let mut pieces = Vec::new();
     let mut at = 0;
     let mut i = 0;
@@ -278,28 +296,23 @@ fn pieces(input: &[f64]) -> Vec<(usize, usize, usize)> {
             j += 1;
         }
         if found[i].start > at {
-            pieces.push((at, found[i].start, PHASES));
+            pieces.push(between(at, found[i].start, PHASES));
         }
-        pieces.push((found[i].start, found[j - 1].end, PHASES));
+        let level = &found[i..j];
+        pieces.push(Piece {
+            from: found[i].start,
+            to: found[j - 1].end,
+            phases: PHASES,
+            cuts: level.iter().map(|c| (c.start, c.end)).collect(),
+        });
         at = found[j - 1].end;
         i = j;
     }
     if at < input.len() {
-        pieces.push((at, input.len(), if found.is_empty() { 100 } else { PHASES }));
+        let phases = if found.is_empty() { 100 } else { PHASES };
+        pieces.push(between(at, input.len(), phases));
     }
     pieces
-}
-
-/// Cycles inside a piece; the piece itself where it holds none.
-fn cuts(input: &[f64], from: usize, to: usize) -> Vec<(usize, usize)> {
-    let inside: Vec<(usize, usize)> = cycles(&input[from..to])
-        .iter()
-        .map(|c| (from + c.start, from + c.end))
-        .collect();
-    match inside.first() {
-        Some(&(first, _)) if first - from < 8 => inside,
-        _ => vec![(from, to)],
-    }
 }
 
 #[cfg(test)]
@@ -396,6 +409,85 @@ mod tests {
             assert_eq!(alarms, 0, "{alike}");
             assert!(seen(alike, 2.0), "{alike}");
         }
+    }
+
+    /// Two records of six equal cycles, and white noise of a deviation in each, with an event of so many of them in one cycle.
+    fn two_records(
+        (quiet, loud): (f64, f64),
+        (record, cycle, event): (usize, usize, f64),
+    ) -> Structure {
+        let mut random = ChaCha8Rng::seed_from_u64(20261127);
+        let mut normal = || (0..12).map(|_| random.random::<f64>() - 0.5).sum::<f64>();
+        let of =
+            |deviation: f64, event_in: Option<usize>, normal: &mut dyn FnMut() -> f64| Record {
+                force: (0..1210)
+                    .map(|i| (std::f64::consts::TAU * f64::from(i - 5) / 200.0).sin())
+                    .collect(),
+                displacement: (0..1210)
+                    .map(|i| {
+                        let inside = event_in
+                            .is_some_and(|cycle| (5 + 200 * cycle..105 + 200 * cycle).contains(&i));
+                        deviation * (normal() + if inside { event } else { 0.0 })
+                    })
+                    .collect(),
+                time: Some((0..1210).map(|i| 0.01 * f64::from(i)).collect()),
+                ..Record::default()
+            };
+        let deviations = [quiet, loud];
+        let records: Vec<Record> = (0..2)
+            .map(|k| of(deviations[k], (k == record).then_some(cycle), &mut normal))
+            .collect();
+        let nothing = Prediction {
+            judged: vec![0.0; 1210],
+            ..Prediction::default()
+        };
+        let noise = deviations.map(|deviation| Noise {
+            deviation,
+            ..known(1200)
+        });
+        structure(
+            &Problem::new(Form::Play, &records),
+            &[nothing.clone(), nothing],
+            &noise,
+        )
+    }
+
+    #[test]
+    fn what_happens_in_the_last_of_equal_cycles_is_seen_as_in_the_first() {
+        assert!(!two_records((1.0, 1.0), (0, 0, 0.0)).is_seen());
+        for cycle in 0..5 {
+            assert!(
+                two_records((1.0, 1.0), (0, cycle, 2.0)).is_seen(),
+                "{cycle}"
+            );
+        }
+    }
+
+    #[test]
+    fn structure_of_a_quiet_record_is_seen_beside_a_loud_one() {
+        for record in 0..2 {
+            let seen = two_records((1.0, 50.0), (record, 2, 2.0));
+            assert!(seen.is_seen(), "{record}: {seen:?}");
+            assert!(seen.places[0].record == record, "{seen:?}");
+        }
+    }
+
+    /// What no fit answers for is smooth and large: neighbours of the noise are no more alike for it.
+    #[test]
+    fn samples_that_do_not_count_are_no_witnesses_of_noise() {
+        let mut random = ChaCha8Rng::seed_from_u64(20261128);
+        let (mut record, noise) = left(0.0, 0.0, &mut random);
+        for (i, value) in record.displacement.iter_mut().enumerate().take(300) {
+            *value += 100.0 * (0.01 * i as f64).cos();
+        }
+        let mut problem = Problem::new(Form::Play, &[record]);
+        problem.records[0].weight[..300].fill(0.0);
+        let nothing = Prediction {
+            judged: vec![0.0; 1200],
+            ..Prediction::default()
+        };
+        let seen = structure(&problem, &[nothing], &[noise]);
+        assert!(seen.correlation < RANDOM, "{seen:?}");
     }
 
     /// A tone of a quarter of the sampling rate, to which neighbours say nothing, beside noise that repeated cycles told.

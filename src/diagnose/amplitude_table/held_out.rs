@@ -3,7 +3,7 @@
 use super::effects::Shown;
 use super::levels::Levels;
 use super::model::{Predicted, fit};
-use super::scatter::Scatter;
+use super::scatter::{APART, Scatter};
 use crate::diagnose::bootstrap::interval;
 use crate::diagnose::findings::Errors;
 use rand::{Rng, SeedableRng};
@@ -30,19 +30,30 @@ const BRACKET: f64 = 3.0;
 /// Fewest levels that are left out; with fewer all inner ones are.
 const FEWEST: usize = 3;
 
-/// Every level between near neighbours left out in turn; never the smallest nor the largest.
+/// Every level between near neighbours left out in turn, with its repeats; never the smallest nor the largest.
 pub fn unseen(levels: &Levels, noise: &Scatter, effects: &[Shown]) -> Vec<Unseen> {
     let count = levels.rows.len();
-    let inner = 1..count.saturating_sub(1);
-    let ratio = |i: usize| levels.rows[i + 1].amplitude / levels.rows[i - 1].amplitude;
-    let mut picked: Vec<usize> = inner.clone().filter(|&i| ratio(i) <= BRACKET).collect();
+    let apart = |i: usize, j: usize| {
+        let ratio = levels.rows[i].amplitude / levels.rows[j].amplitude;
+        ratio.ln().abs() > APART
+    };
+    // Repeats of a level are no neighbours of it, and those of the smallest and the largest are these.
+    let below = |i: usize| (0..i).rev().find(|&j| apart(i, j));
+    let above = |i: usize| (i + 1..count).find(|&j| apart(i, j));
+    let ratio = |(below, above): (usize, usize)| {
+        levels.rows[above].amplitude / levels.rows[below].amplitude
+    };
+    let inner = (0..count).filter_map(|i| Some((i, below(i).zip(above(i))?)));
+    let inner: Vec<(usize, f64)> = inner.map(|(i, about)| (i, ratio(about))).collect();
+    let near = inner.iter().filter(|(_, ratio)| *ratio <= BRACKET);
+    let mut picked: Vec<usize> = near.map(|(i, _)| *i).collect();
     if picked.len() < FEWEST {
-        picked = inner.collect();
+        picked = inner.iter().map(|(i, _)| *i).collect();
     }
     picked
         .into_iter()
         .map(|out| {
-            let kept: Vec<bool> = (0..count).map(|i| i != out).collect();
+            let kept: Vec<bool> = (0..count).map(|i| apart(i, out)).collect();
             let predicted = fit(levels, noise, effects, &kept).predict(&levels.rows[out], levels);
             against(levels, out, &predicted, noise)
         })

@@ -49,7 +49,7 @@ const ASSUMED: Scatter = Scatter {
 };
 
 /// Levels closer than this, in the logarithm of the amplitude, are repeats of one.
-const APART: f64 = 0.02;
+pub(super) const APART: f64 = 0.02;
 
 /// The two nearest levels on one side, apart from each other and from level `i`.
 fn nearest(x: &[f64], i: usize, side: impl Iterator<Item = usize>) -> Vec<usize> {

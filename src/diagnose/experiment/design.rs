@@ -252,13 +252,6 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
         values,
         shown,
     } = rig.play(blocks);
-    let record = problem.records.iter().max_by(|a, b| {
-        // The noisiest of the records: nothing is promised beyond it.
-        let heavy = |r: &Prepared| r.weight.iter().copied().fold(0.0, f64::max);
-        heavy(b).total_cmp(&heavy(a))
-    });
-    let weight = record.map_or(1.0, |r| r.weight.iter().copied().fold(0.0, f64::max));
-    let autoregression = record.map_or(0.0, |r| r.autoregression);
     let count = values.len();
     let (force, displacement) = match problem.operators.form {
         Form::Play => (values, vec![0.0; count]),
@@ -272,8 +265,8 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
         ..Record::default()
     };
     let mut record = Prepared {
-        weight: vec![weight; count],
-        autoregression,
+        weight: vec![rig.weight; count],
+        autoregression: rig.autoregression,
         ..Prepared::new(&played, problem.operators.form)
     };
     record.keep(&shown);

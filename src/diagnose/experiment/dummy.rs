@@ -88,9 +88,11 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
     (problem, fit)
 }
 
-/// What the dummy, which slips or does not, says of a cause that the joint's records would have with the given values.
+/// What the dummy, which slips or does not and was timed or not, says of a cause that the joint's records would have with
+/// the given values. Of what happens once, and without time of what needs it, it says nothing.
 fn examine(
-    (problem, plain, slips): (&Problem, &Fit, bool),
+    (problem, plain): (&Problem, &Fit),
+    (slips, timed): (bool, bool),
     cause: &'static dyn Cause,
     acting: &Acting,
 ) -> Dummy {
@@ -106,7 +108,9 @@ fn examine(
         }
     }
     let power = baseline(&simulated).misfit / dispersion(problem, &with);
+    let may_show = !cause.happens_once() && (timed || !cause.needs_time());
     let ruling = match (fall > ALARM, fall >= PRESENT * power) {
+        _ if !may_show => Ruling::Open,
         // Slip has loss and harmonics of its own.
         (true, true) if !slips => Ruling::Shown,
         (_, false) if power >= 2.0 * TOLD => Ruling::Excluded,
@@ -151,7 +155,7 @@ const MOST_OF_IT: f64 = 0.5;
 pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
     let (problem, plain) = spring(bench, dummy);
     let alone = Alone::of(&problem, &plain, dummy);
-    let slips = alone.slips.is_some();
+    let asked = (alone.slips.is_some(), dummy.time.is_some());
     let mut said: Vec<Dummy> = alone.slips.clone().into_iter().collect();
     let (mut found, mut against) = (found, Vec::new());
     for place in 0..found.best.effects.len() {
@@ -173,7 +177,7 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
         let rulings = members.iter().map(|(cause, fit)| {
             let acting = fit.effect(cause.name());
             let acting = acting.filter(|_| cause.kind() == Kind::Measurement)?;
-            Some(examine((&problem, &plain, slips), *cause, acting))
+            Some(examine((&problem, &plain), asked, *cause, acting))
         });
         let rulings: Vec<Option<Dummy>> = rulings.collect();
         let is = |member: usize, ruling: Ruling| {

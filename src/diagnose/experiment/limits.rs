@@ -2,7 +2,7 @@
 
 use super::program::Rig;
 use crate::diagnose::prepare::Bench;
-use crate::identify::Form;
+use crate::identify::{Form, Prepared};
 use crate::record::cycles::cycles;
 
 /// Limits given by the user; `None` takes what the records show.
@@ -104,12 +104,17 @@ pub fn rigs(bench: &Bench, limits: &Limits) -> Vec<Rig> {
     let step = steps.get(steps.len() / 2).copied().unwrap_or(1.0);
     let mut own = *limits;
     let (near, far) = ranges(range, *own.of_drive(problem.operators.form));
+    // The noisiest of the records as they were measured: nothing is promised beyond it.
+    let heavy = |r: &Prepared| r.weight.iter().copied().fold(0.0, f64::max);
+    let noisiest = (problem.records.iter()).min_by(|a, b| heavy(a).total_cmp(&heavy(b)));
     let of = |(lower, upper): Range, rate: f64| Rig {
         lower,
         upper,
         rate,
         duration: limits.duration.unwrap_or(duration),
         step: step.min(1.0 / (PER_CYCLE * rate)),
+        weight: noisiest.map_or(1.0, heavy),
+        autoregression: noisiest.map_or(0.0, |r| r.autoregression),
     };
     let mut rigs = vec![
         of(near, seen.min(rate)),

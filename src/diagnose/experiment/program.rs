@@ -16,6 +16,10 @@ pub struct Rig {
     pub duration: f64,
     /// Time between samples \[s\].
     pub step: f64,
+    /// One over the deviation of what is new in the noise of every sample of the judged channel, 1/N or 1/m.
+    pub weight: f64,
+    /// Correlation of neighbours in that noise.
+    pub autoregression: f64,
 }
 
 /// One block of a program; amplitude and mean as shares of the rig's reach, the mean from the middle of its range.
@@ -279,6 +283,8 @@ mod tests {
             rate: 5.0,
             duration: 30.0,
             step: 0.004,
+            weight: 1.0,
+            autoregression: 0.0,
         };
         let menu = rig.menu();
         assert!(menu.len() > 8);
@@ -323,6 +329,8 @@ mod tests {
                 rate: 2.0,
                 duration: 60.0,
                 step: 0.005,
+                weight: 1.0,
+                autoregression: 0.0,
             };
             let menu = rig.menu();
             for blocks in menu.iter().map(std::slice::from_ref).chain([&menu[..]]) {
@@ -356,6 +364,8 @@ mod tests {
             rate: 1.0,
             duration: 12.0,
             step: 0.01,
+            weight: 1.0,
+            autoregression: 0.0,
         };
         assert!(rig.menu().iter().all(|b| b.seconds(&rig) <= 4.0));
     }
