@@ -279,6 +279,46 @@ fn columns_that_are_not_chosen_are_found_by_their_header() {
 }
 
 #[test]
+fn a_row_of_units_serves_chosen_columns_too() {
+    let table = "Time,Load,Extension\ns,(kN),[mm]\n0,1,1.5\n.5,-2.5,-2\n1,0,0\n";
+    let said = "units were taken from the row below the header";
+    for preamble in ["", "rig 7\n", "Operator,NN,\n# gauge\n\nGauge,long,\n"] {
+        let content = format!("{preamble}{table}");
+        for columns in [
+            "force=2,displacement=3",
+            "force=load,displacement=Extension",
+            "time=1",
+        ] {
+            let by = options(columns, "");
+            assert_is_the_same_test(&history_by("units below.csv", &content, &by));
+        }
+        let path = written("units below.csv", content.as_bytes());
+        let notes = read::file(&path, &options("force=2", ""))
+            .expect("a good file")
+            .notes;
+        assert_eq!(notes[0], said, "{notes:?}");
+        assert_eq!(notes.len() > 1, !preamble.is_empty(), "{notes:?}");
+    }
+    // --units prevails over that row, and takes none of its other units away
+    let other = table.replace("(kN)", "N");
+    let by = options("force=2,displacement=3", "force=kN");
+    assert_is_the_same_test(&history_by("units over.csv", other, &by));
+}
+
+#[test]
+fn units_with_no_names_above_them_stay_the_header() {
+    let rows = "0,1,1.5\n.5,-2.5,-2\n1,0,0\n";
+    let by = options(
+        "time=s,force=kN,displacement=mm",
+        "time=s,force=kN,displacement=mm",
+    );
+    for (name, preamble) in [("units alone.csv", ""), ("units narrow.csv", "rig,7b\n")] {
+        let content = format!("{preamble}s,kN,mm\n{rows}");
+        assert_is_the_same_test(&history_by(name, content, &by));
+    }
+}
+
+#[test]
 fn amplitude_tables_are_read() {
     let content = "# resonance test\nFrequency (Hz);Dissipation (mJ);Force Amplitude (kN);u0 (um)\n\
                    80,5;2;0,1;5\n80;7;0,2;10\n";

@@ -277,6 +277,58 @@ fn a_refused_header_says_what_would_do() {
 }
 
 #[test]
+fn a_refused_header_is_looked_for_where_it_stands() {
+    let cases: &[(&str, &str, &str)] = &[
+        (
+            "# rig\n# t [s],F,u [m]\n\n0,1,2\n",
+            "comment no unit",
+            "line 2, column 2 `F`: no unit",
+        ),
+        (
+            "# t [s],F [N],v\n0,1,2\n",
+            "comment missing",
+            "line 1: no column displacement",
+        ),
+        (
+            "# F [N],u [m],disp [m]\n0,1,2\n",
+            "comment twice",
+            "line 1, column 3 `disp [m]`: column 2 `u [m]`",
+        ),
+        (
+            "# t [s],F [furlong],u [m]\n0,1,2\n",
+            "comment unknown",
+            "line 1, column 2 `F [furlong]`: unknown unit",
+        ),
+        (
+            "time,force,disp\ns,mm,mm\n0,1,2\n",
+            "unit below",
+            "line 2, column 2 `force`: unit `mm` measures length",
+        ),
+        (
+            "time,force [mm],disp\n# rig\ns,,mm\n0,1,2\n",
+            "unit in the header",
+            "line 1, column 2 `force [mm]`: unit `mm` measures length",
+        ),
+        (
+            "time,force,disp\ns,,mm\n0,1,2\n",
+            "unit nowhere",
+            "line 1, column 2 `force`: no unit",
+        ),
+    ];
+    for (content, name, words) in cases {
+        let error = refused(&format!("stands {name}.csv"), content).to_string();
+        assert!(error.contains(words), "{name}: `{words}` in: {error}");
+    }
+    // A comment stands between header and units, and --columns leads to them.
+    let content = "rig 7\ntime,force,disp\n# rig\ns,mm,mm\n0,1,2\n";
+    let by = Options::from_arguments(Some("force=2"), None).expect("good options");
+    let error = read::file(&written("stands chosen.csv", content.as_bytes()), &by)
+        .expect_err("a bad unit is refused")
+        .to_string();
+    assert!(error.contains("line 4, column 2 `force`"), "{error}");
+}
+
+#[test]
 fn what_is_no_text_file_is_refused() {
     assert!(matches!(
         refused("zip.csv", b"PK\x03\x04\0\0\x08\0"),

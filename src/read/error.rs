@@ -191,7 +191,7 @@ pub enum ReadError {
     /// A unit that is not known, or one of another dimension.
     #[error("{spot}: {}; known for {quantity}: {}", unit_fault(.unit, .measures), super::unit::known(*.quantity))]
     UnknownUnit {
-        /// The header cell.
+        /// The column, at the line where the unit stands.
         spot: Spot,
         /// The unit as written.
         unit: String,

@@ -4,7 +4,7 @@ use super::error::ReadError;
 use super::options::{Choice, Options};
 use super::quantity::{self, Quantity};
 use super::source::Source;
-use super::{number, unit};
+use super::{number, separator, unit};
 use csv::StringRecord;
 
 /// The head of a table.
@@ -15,6 +15,8 @@ pub struct Head {
     pub names: Vec<String>,
     /// Units from a row below the header, one per cell; empty where there is none.
     pub units: Vec<String>,
+    /// Line of that row; the header's where there is none.
+    pub units_line: usize,
     /// Line of the header, or of the first row where there is none.
     pub line: usize,
     /// Count of columns.
@@ -69,6 +71,33 @@ struct Row {
     end: usize,
 }
 
+/// The two rows above the one looked at: they may be header and row of units.
+#[derive(Clone, Default)]
+struct Above {
+    last: Option<Row>,
+    higher: Option<Row>,
+}
+
+impl Above {
+    fn push(&mut self, row: Row) {
+        self.higher = self.last.replace(row);
+    }
+
+    /// Header and row of units of a table of that width, as far as they are there. Units with no
+    /// row of names above them stay the header: they are all the names there are.
+    fn header_and_units(&self, width: usize) -> (Option<&Row>, Option<&Row>) {
+        let fits = |row: &&Row| row.cells.len() == width;
+        let last = self.last.as_ref().filter(fits);
+        let higher = self.higher.as_ref().filter(fits);
+        match (higher, last) {
+            (Some(header), Some(units)) if is_units(&units.cells) => (Some(header), Some(units)),
+            _ => (last, None),
+        }
+    }
+}
+
+const UNITS_BELOW: &str = "units were taken from the row below the header";
+
 /// Finds the head; `needed` says what the table has to hold, for where it does not.
 ///
 /// # Errors
@@ -76,10 +105,10 @@ struct Row {
 /// [`ReadError::TwoSeparators`], [`ReadError::NoHeader`], [`ReadError::NoRows`], [`ReadError::NoChosenNumbers`].
 pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<Head, ReadError> {
     let text = source.text.as_str();
-    let separator = separator(text);
+    let separator = separator::of_table(text);
     let mut rows = reader(text, separator);
-    let mut before: Option<Row> = None; // the row before the one looked at
-    let mut numbers: Option<(Row, Option<Row>)> = None; // the first row of numbers, and the one before
+    let mut above = Above::default();
+    let mut numbers: Option<(Row, Above)> = None; // the first row of numbers, and those above it
     let mut skipped = 0;
     while let Some(row) = next(&mut rows, source)? {
         if options.columns.is_empty() {
@@ -87,8 +116,9 @@ pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<
             return declared(source, separator, &row, below.as_ref(), needed);
         }
         if holds_chosen_numbers(&row.cells, options) {
-            let mut head = declared_by_options(text, separator, &row, before.as_ref());
-            if skipped > 1 {
+            let mut head = declared_by_options(text, separator, &row, &above);
+            let expected = 1 + usize::from(!head.units.is_empty()); // header, row of units
+            if skipped > expected {
                 head.notes.push(format!(
                     "{skipped} rows above the numbers are no numbers: skipped"
                 ));
@@ -96,15 +126,15 @@ pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<
             return Ok(head);
         }
         skipped += 1;
-        let above = before.replace(row.clone());
         if numbers.is_none() && is_numbers(&row.cells) {
-            numbers = Some((row, above));
+            numbers = Some((row.clone(), above.clone()));
         }
+        above.push(row);
     }
     let file = source.file.clone();
-    match (numbers, before) {
+    match (numbers, above.last) {
         // The layout says which column is beyond the table.
-        (Some((row, above)), _) => Ok(declared_by_options(text, separator, &row, above.as_ref())),
+        (Some((row, above)), _) => Ok(declared_by_options(text, separator, &row, &above)),
         (None, Some(last)) => Err(ReadError::NoChosenNumbers {
             file,
             line: line_at(text, last.end),
@@ -128,90 +158,94 @@ fn declared(
     let text = source.text.as_str();
     let line = line_at(text, first.end);
     let file = source.file.clone();
-    let shown = shown(&first.cells, separator);
-    let mut notes = Vec::new();
     if let (true, Some(header)) = (
         first.cells.len() < 2,
-        header_separator(&first.cells, separator),
+        separator::of_header(&first.cells, separator),
     ) && second.is_some_and(|row| row.cells.len() > 1)
     {
         return Err(ReadError::TwoSeparators {
             file,
             line,
-            header: sign(header),
-            rows: sign(separator),
+            header: separator::sign(header),
+            rows: separator::sign(separator),
         });
     }
     if first.cells.len() < 2 {
         return Err(ReadError::OneColumn {
             file,
             line,
-            text: shown,
+            text: shown(&first.cells, separator),
             needed,
         });
     }
-    let cells = |row: &StringRecord| row.iter().map(|cell| cell.trim().to_string()).collect();
-    let width = first.cells.len();
     if is_numbers(&first.cells) {
-        let names = commented_header(text, separator, line, width).ok_or(ReadError::NoHeader {
-            file,
-            line,
-            text: shown,
-        })?;
-        notes.push("the header was found in a comment".to_string());
-        let start = text
-            .split_inclusive('\n')
-            .take(line - 1)
-            .map(str::len)
-            .sum();
-        return Ok(Head {
-            separator,
-            names,
-            units: Vec::new(),
-            line,
-            width,
-            start,
-            notes,
-        });
+        return declared_in_comment(source, separator, first);
     }
     let second = second.ok_or(ReadError::NoRows { file, line })?;
-    let (units, start) = if is_units(&second.cells) {
-        notes.push("units were taken from the row below the header".to_string());
-        (cells(&second.cells), second.end)
-    } else {
-        (Vec::new(), first.end)
+    let mut head = Head {
+        separator,
+        names: cells_of(first),
+        units: Vec::new(),
+        units_line: line,
+        line,
+        width: first.cells.len(),
+        start: first.end,
+        notes: Vec::new(),
     };
+    if is_units(&second.cells) {
+        head.units = cells_of(second);
+        head.units_line = line_at(text, second.end);
+        head.start = second.end;
+        head.notes.push(UNITS_BELOW.to_string());
+    }
+    Ok(head)
+}
+
+/// The head of a file that begins with numbers: its header is a comment above them.
+fn declared_in_comment(source: &Source, separator: u8, first: &Row) -> Result<Head, ReadError> {
+    let text = source.text.as_str();
+    let line = line_at(text, first.end);
+    let width = first.cells.len();
+    let (header_line, names) =
+        commented_header(text, separator, line, width).ok_or_else(|| ReadError::NoHeader {
+            file: source.file.clone(),
+            line,
+            text: shown(&first.cells, separator),
+        })?;
+    let above = text.split_inclusive('\n').take(line - 1);
     Ok(Head {
         separator,
-        names: cells(&first.cells),
-        units,
-        line,
+        names,
+        units: Vec::new(),
+        units_line: header_line,
+        line: header_line,
         width,
-        start,
-        notes,
+        start: above.map(str::len).sum(),
+        notes: vec!["the header was found in a comment".to_string()],
     })
 }
 
 /// The head of a file that `--columns` describes: the row above the first numbers, if any, is
-/// its header.
-fn declared_by_options(text: &str, separator: u8, row: &Row, before: Option<&Row>) -> Head {
+/// its header, or its row of units where the header stands above that.
+fn declared_by_options(text: &str, separator: u8, row: &Row, above: &Above) -> Head {
     let width = row.cells.len();
-    let header = before.filter(|above| above.cells.len() == width);
+    let (header, units) = above.header_and_units(width);
+    let line = line_at(text, header.unwrap_or(row).end);
     Head {
         separator,
-        names: header.map_or(Vec::new(), |above| {
-            above
-                .cells
-                .iter()
-                .map(|cell| cell.trim().to_string())
-                .collect()
-        }),
-        units: Vec::new(),
-        line: line_at(text, header.unwrap_or(row).end),
+        names: header.map_or(Vec::new(), cells_of),
+        units: units.map_or(Vec::new(), cells_of),
+        units_line: units.map_or(line, |units| line_at(text, units.end)),
+        line,
         width,
-        start: before.map_or(0, |above| above.end),
-        notes: Vec::new(),
+        start: above.last.as_ref().map_or(0, |last| last.end),
+        notes: units.map_or(Vec::new(), |_| vec![UNITS_BELOW.to_string()]),
     }
+}
+
+fn cells_of(row: &Row) -> Vec<String> {
+    let cells = row.cells.iter();
+    cells.map(|cell| cell.trim().to_string()).collect()
 }
 
 /// The next row that holds anything.
@@ -275,12 +309,16 @@ fn chosen(options: &Options) -> String {
 }
 
 /// Many programs write the header as a comment: the last one above the numbers, if it names
-/// columns.
-fn commented_header(text: &str, separator: u8, line: usize, width: usize) -> Option<Vec<String>> {
-    let above = text
-        .lines()
-        .take(line - 1)
-        .filter(|line| line.starts_with('#'))
+/// columns. With its line.
+fn commented_header(
+    text: &str,
+    separator: u8,
+    line: usize,
+    width: usize,
+) -> Option<(usize, Vec<String>)> {
+    let (header_line, above) = (1..line)
+        .zip(text.lines())
+        .filter(|(_, text)| text.starts_with('#'))
         .last()?;
     let above = above.trim_start_matches('#').trim();
     let names: Vec<String> = above
@@ -291,47 +329,5 @@ fn commented_header(text: &str, separator: u8, line: usize, width: usize) -> Opt
         let (name, unit) = quantity::name_and_unit(cell);
         Quantity::named(name, unit).is_some()
     };
-    (names.len() == width && names.iter().any(is_named)).then_some(names)
-}
-
-const CANDIDATES: [u8; 3] = *b"\t;,";
-
-/// A separator that the header has and the rows do not use.
-fn header_separator(header: &StringRecord, of_rows: u8) -> Option<u8> {
-    let bytes = header.as_slice().as_bytes();
-    CANDIDATES
-        .into_iter()
-        .find(|candidate| *candidate != of_rows && bytes.contains(candidate))
-}
-
-/// A separator as it stands in a message.
-fn sign(separator: u8) -> &'static str {
-    match separator {
-        b'\t' => "a tab",
-        b';' => "`;`",
-        _ => "`,`",
-    }
-}
-
-/// The separator that most of the first rows show, tab before semicolon before comma within one
-/// row: a comma beside the others is a decimal comma.
-fn separator(text: &str) -> u8 {
-    let mut votes = [0; 3];
-    let rows = text
-        .lines()
-        .map(str::trim_start)
-        .filter(|l| !l.is_empty() && !l.starts_with('#'));
-    for row in rows.take(64) {
-        if let Some(found) = CANDIDATES
-            .iter()
-            .position(|sign| row.as_bytes().contains(sign))
-        {
-            votes[found] += 1;
-        }
-    }
-    let most = (0..3)
-        .rev()
-        .max_by_key(|candidate| votes[*candidate])
-        .unwrap_or(2);
-    CANDIDATES[most]
+    (names.len() == width && names.iter().any(is_named)).then_some((header_line, names))
 }

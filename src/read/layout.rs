@@ -218,15 +218,28 @@ impl<'a> Layout<'a> {
         })
     }
 
+    fn unit_in_header(&self, index: usize) -> Option<&str> {
+        let cell = self.head.names.get(index)?;
+        quantity::name_and_unit(cell).1
+    }
+
     /// Unit in the header cell, else in the row below it.
     fn written_unit(&self, index: usize) -> Option<&str> {
-        let in_cell = self
-            .head
-            .names
-            .get(index)
-            .and_then(|cell| quantity::name_and_unit(cell).1);
         let below = self.head.units.get(index).map(|cell| bare(cell));
-        in_cell.or(below).filter(|unit| !unit.is_empty())
+        let written = self.unit_in_header(index).or(below);
+        written.filter(|unit| !unit.is_empty())
+    }
+
+    /// The column, at the line where its unit is to be corrected.
+    fn spot_of_unit(&self, index: usize) -> Spot {
+        let line = match self.unit_in_header(index) {
+            Some(_) => self.head.line,
+            None => self.head.units_line,
+        };
+        Spot {
+            line,
+            ..self.spot(index)
+        }
     }
 
     /// What to say of a column's unit, if anything.
@@ -250,13 +263,7 @@ impl<'a> Layout<'a> {
         if let Some(unit) = self.options.unit(quantity) {
             return Ok(unit);
         }
-        let in_cell = self
-            .head
-            .names
-            .get(index)
-            .and_then(|cell| quantity::name_and_unit(cell).1);
-        let below = self.head.units.get(index).map(|cell| bare(cell));
-        let Some(written) = in_cell.or(below).filter(|unit| !unit.is_empty()) else {
+        let Some(written) = self.written_unit(index) else {
             return Err(ReadError::MissingUnit {
                 spot: self.spot(index),
                 quantity,
@@ -264,7 +271,7 @@ impl<'a> Layout<'a> {
             });
         };
         unit::find(written, quantity.dimension()).ok_or_else(|| ReadError::UnknownUnit {
-            spot: self.spot(index),
+            spot: self.spot_of_unit(index),
             unit: written.to_string(),
             measures: unit::measures(written).map(unit::Dimension::name),
             quantity,

@@ -13,6 +13,7 @@ mod numbers;
 mod options;
 mod quantity;
 mod rectangle;
+mod separator;
 mod source;
 mod spot;
 mod unit;
