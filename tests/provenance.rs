@@ -1,16 +1,29 @@
 //! What `iwan identify` writes of a joint's origin.
 
 use iwan::saved::{SavedJoint, read};
-use std::path::Path;
+use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// The folder of one test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("provenance {name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
 
 /// joint.json of a bundled record, at a given or at no given date.
 fn identified(name: &str, date: Option<&str>) -> (String, SavedJoint) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("provenance {name}"));
-    std::fs::create_dir_all(&folder).unwrap();
+    identified_from(&folder(name), &["examples/bolt-1.csv"], date)
+}
+
+/// joint.json in the folder, of `iwan identify` with these arguments.
+fn identified_from(folder: &Path, arguments: &[&str], date: Option<&str>) -> (String, SavedJoint) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_iwan"));
     command
-        .args(["identify", "examples/bolt-1.csv", "-o"])
+        .arg("identify")
+        .args(arguments)
+        .arg("-o")
         .arg(folder.join("joint.json"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .env_remove("SOURCE_DATE_EPOCH");
@@ -71,4 +84,55 @@ fn the_date_is_now() {
         "{date} against {now}"
     );
     assert_eq!(date.len(), now.trim().len());
+}
+
+/// The same of a file of that content in the test's folder.
+fn identified_of(name: &str, content: &str, options: &[&str]) -> SavedJoint {
+    let folder = folder(name);
+    let file = folder.join("record.csv");
+    std::fs::write(&file, content).unwrap();
+    let mut arguments = vec![file.to_str().unwrap()];
+    arguments.extend_from_slice(options);
+    identified_from(&folder, &arguments, None).1
+}
+
+/// What `identify` strikes out is no force that was measured of the joint.
+#[test]
+fn a_reading_that_was_lost_is_not_the_largest_force() {
+    let whole = std::fs::read_to_string("examples/bolt-1.csv").unwrap();
+    let lost = "6.23333,673.634,8.5275e-06\n";
+    assert!(whole.contains(lost));
+    let content = whole.replace(lost, "6.23333,-9999,8.5275e-06\n");
+    let saved = identified_of("lost", &content, &[]);
+    let forces = whole.lines().filter_map(|line| line.split(',').nth(1));
+    let largest = forces
+        .filter_map(|force| force.parse::<f64>().ok())
+        .fold(0.0_f64, |most, force| most.max(force.abs()));
+    assert_eq!(saved.provenance.largest_force(), Some(largest));
+}
+
+/// The exciter at phase resonance balances the loss alone: the joint bears `m ω² X`.
+#[test]
+fn the_largest_force_at_resonance_is_the_joints_own() {
+    let (mass, stiffness) = (250.0_f64, 4e6_f64);
+    let mut content = String::from(
+        "force amplitude [N],dissipation [J],displacement amplitude [m],frequency [Hz]\n",
+    );
+    let mut largest = 0.0;
+    for micrometres in [1.0, 1.4, 1.9, 2.6, 3.5, 4.7, 6.3, 8.4, 11.0, 14.0] {
+        let amplitude: f64 = 1e-6 * micrometres;
+        // micro-slip of χ = −0.4, an eighth softer at 14 µm
+        let slip = (amplitude / 14e-6).powf(0.6) / 8.0;
+        let force = stiffness * amplitude * (1.0 - slip);
+        let loss = stiffness * slip * amplitude * amplitude * 4.0 * 0.6 / 2.6;
+        let hertz = (force / amplitude / mass).sqrt() / TAU;
+        content += &format!(
+            "{:e},{loss:e},{amplitude:e},{hertz:?}\n",
+            loss / (PI * amplitude)
+        );
+        largest = force;
+    }
+    let saved = identified_of("resonance", &content, &["--modal-mass", "250"]);
+    let said = saved.provenance.largest_force().unwrap();
+    assert!((said / largest - 1.0).abs() < 1e-9, "{said} for {largest}");
 }

@@ -81,7 +81,7 @@ pub fn run(arguments: &Identify) -> anyhow::Result<()> {
     };
     let saved = SavedJoint {
         joint: joint.clone(),
-        provenance: super::provenance::provenance(&loaded, "identify"),
+        provenance: super::provenance::provenance(&loaded, &known, "identify"),
         intervals: intervals(&found),
     };
     output::write(output, |out| {

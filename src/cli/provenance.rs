@@ -1,7 +1,9 @@
 //! What a joint.json says of its origin: the records, when, and by what.
 
+use crate::identify::table::{Known, at_resonance, own_force};
 use crate::read::Loaded;
-use crate::record::Measurement;
+use crate::record::outliers::struck_out;
+use crate::record::{AmplitudeTable, Measurement, Record};
 use crate::saved::{Provenance, RecordUsed, Span};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -9,10 +11,10 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 /// equal input gives equal output.
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
-/// Origin of a joint that `iwan SUBCOMMAND` made of these records, now.
-pub fn provenance(loaded: &[Loaded], subcommand: &str) -> Provenance {
+/// Origin of a joint that `iwan SUBCOMMAND` made of these records and of what is known beside them, now.
+pub fn provenance(loaded: &[Loaded], known: &Known, subcommand: &str) -> Provenance {
     Provenance {
-        records: loaded.iter().map(record).collect(),
+        records: loaded.iter().map(|one| record(one, known)).collect(),
         date: date(),
         tool: Some(format!("iwan {subcommand} {}", env!("CARGO_PKG_VERSION"))),
         remark: None,
@@ -20,22 +22,44 @@ pub fn provenance(loaded: &[Loaded], subcommand: &str) -> Provenance {
     }
 }
 
-fn record(loaded: &Loaded) -> RecordUsed {
-    let (name, force, span) = match &loaded.measurement {
-        Measurement::History(record) => {
-            let span = record.time.as_deref().and_then(Span::of);
-            (&record.name, &record.force, span)
-        }
-        Measurement::Amplitudes(table) => (&table.name, &table.force_amplitude, None),
-    };
-    let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-    RecordUsed {
-        name: name.clone(),
-        samples: force.len(),
-        sha256: loaded.sha256.clone(),
-        span,
-        largest_force: (largest > 0.0).then_some(largest),
+fn record(loaded: &Loaded, known: &Known) -> RecordUsed {
+    let sha256 = loaded.sha256.clone();
+    match &loaded.measurement {
+        Measurement::History(record) => RecordUsed {
+            name: record.name.clone(),
+            samples: record.len(),
+            sha256,
+            span: record.time.as_deref().and_then(Span::of),
+            largest_force: of_history(record),
+        },
+        Measurement::Amplitudes(table) => RecordUsed {
+            name: table.name.clone(),
+            samples: table.force_amplitude.len(),
+            sha256,
+            span: None,
+            largest_force: of_table(table, known),
+        },
     }
+}
+
+/// Largest force of a time history \[N\], as it was identified from: a reading that was lost on the way loaded no joint.
+fn of_history(record: &Record) -> Option<f64> {
+    largest(&struck_out(record).force)
+}
+
+/// Largest force of the joint in an amplitude table \[N\]; `None` for one at phase resonance of which nothing tells it:
+/// the exciter's, that stands there, balances the loss alone.
+fn of_table(table: &AmplitudeTable, known: &Known) -> Option<f64> {
+    match own_force(table, known) {
+        Some(own) => largest(&own.force_amplitude),
+        None if at_resonance(table) => None,
+        None => largest(&table.force_amplitude),
+    }
+}
+
+fn largest(force: &[f64]) -> Option<f64> {
+    let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+    (largest > 0.0).then_some(largest)
 }
 
 /// `SOURCE_DATE_EPOCH`, else now. A clock before 1970 gives no date.
@@ -71,7 +95,50 @@ fn iso_8601(seconds: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::iso_8601;
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// The joint's own force is `m ω² X`, whatever the exciter's.
+    #[test]
+    fn the_exciters_force_at_resonance_is_not_the_joints() {
+        let (force, displacement) = (vec![1.0_f64, 2.0], vec![1e-5, 2e-5]);
+        let losses = force.iter().zip(&displacement);
+        let mut table = AmplitudeTable {
+            name: "mode".into(),
+            dissipation: losses.map(|(f, x)| PI * f * x).collect(),
+            force_amplitude: force,
+            displacement_amplitude: Some(displacement),
+            frequency: Some(vec![50.0, 50.0]),
+        };
+        assert_eq!(of_table(&table, &Known::default()), None);
+        let known = Known {
+            modal_mass: Some(2.0),
+            ..Known::default()
+        };
+        let expected = 2.0 * (TAU * 50.0_f64).powi(2) * 2e-5;
+        let own = of_table(&table, &known);
+        assert!(
+            own.is_some_and(|own| (own / expected - 1.0).abs() < 1e-12),
+            "{own:?}"
+        );
+        // with half the loss the force is the joint's own already
+        table.dissipation.iter_mut().for_each(|loss| *loss *= 0.5);
+        assert_eq!(of_table(&table, &known), Some(2.0));
+    }
+
+    #[test]
+    fn a_reading_that_was_lost_is_no_force() {
+        let sine = |i: i32| (0.06 * f64::from(i)).sin();
+        let mut record = Record {
+            force: (0..4000).map(|i| 50.0 * sine(i)).collect(),
+            displacement: (0..4000).map(|i| 1e-5 * sine(i)).collect(),
+            ..Record::default()
+        };
+        let whole = of_history(&record);
+        record.force[1234] = -9999.0;
+        assert_eq!(of_history(&record), whole);
+        assert!(whole.is_some_and(|whole| whole < 50.1), "{whole:?}");
+    }
 
     /// `date -u -d @SECONDS +%FT%TZ`.
     #[test]
