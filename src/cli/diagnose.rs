@@ -13,6 +13,7 @@ use crate::causes::{Cause, find};
 use crate::diagnose::amplitude_table::diagnose_tables;
 use crate::diagnose::experiment::Options;
 use crate::diagnose::{Findings, diagnose_with};
+use crate::identify::table::Known;
 use crate::joint::Drive;
 use crate::pack::{Archive, BUILD_COMMAND, FmiVersion, Library};
 use crate::read::Loaded;
@@ -95,7 +96,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let page = html::render(&findings, &pages(&findings))?;
     let diagnosis = serde_json::to_string_pretty(&json::render(&findings))?;
     let joint = match &missing {
-        None => Some(write(&saved(&findings, &loaded))),
+        None => Some(write(&saved(&findings, &loaded, &known))),
         Some(why) => {
             output::tell(&format!(
                 "neither joint.json nor joint.fmu is written: {why}"
@@ -114,8 +115,6 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
         true => output::print(&format!("{diagnosis}\n"))?,
         false => output::print(&text::render(&findings))?,
     }
-    let earlier = results::is_of_one(&arguments.output);
-    output::make_folder(&arguments.output)?;
     let mut files = vec![
         ("report.html", page.into_bytes()),
         ("diagnosis.json", diagnosis.into_bytes()),
@@ -125,14 +124,7 @@ pub fn run(arguments: &Diagnose) -> anyhow::Result<()> {
     let experiment = experiment.filter(|experiment| !experiment.blocks.is_empty());
     files.extend(experiment.map(|e| (results::PROGRAM, results::program(e).into_bytes())));
     files.extend(archive.map(|bytes| ("joint.fmu", bytes)));
-    for (name, bytes) in &files {
-        let path = arguments.output.join(name);
-        output::write(&path, |out| Ok(out.write_all(bytes)?))?;
-        stage(&path.display().to_string());
-    }
-    let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    results::clear(&arguments.output, &written, earlier)?;
-    Ok(())
+    results::write(&arguments.output, &files, stage)
 }
 
 /// What the exported joint is driven by: the channel that was prescribed here.
@@ -206,7 +198,7 @@ fn flat(channel: &[f64]) -> bool {
     channel.windows(2).all(|pair| pair[0] == pair[1])
 }
 
-fn saved(findings: &Findings, loaded: &[Loaded]) -> SavedJoint {
+fn saved(findings: &Findings, loaded: &[Loaded], known: &Known) -> SavedJoint {
     let open = (f64::NEG_INFINITY, f64::INFINITY);
     let mut intervals: BTreeMap<_, _> = findings
         .joint_parameters
@@ -228,7 +220,7 @@ fn saved(findings: &Findings, loaded: &[Loaded]) -> SavedJoint {
                 held_out_rms_ratio: Some(findings.gain.0).filter(|ratio| ratio.is_finite()),
                 interval: findings.gain.1,
             }),
-            ..provenance(loaded, "diagnose")
+            ..provenance(loaded, known, "diagnose")
         },
         intervals,
     }

@@ -49,8 +49,8 @@ pub fn admit(path: &Path, inputs: &[&Path]) -> Result<(), BadInput> {
 
 /// Refuses a file that cannot be made, or made anew: by making its draft.
 fn takes(target: &Path) -> Result<(), BadInput> {
-    let draft = Draft::new(target);
-    File::create(&draft.path).map(drop).map_err(|error| {
+    let draft = Draft::new(target, target.to_path_buf());
+    File::create(&draft.passing).map(drop).map_err(|error| {
         BadInput(format!(
             "{}: cannot write: {error}; name another place",
             target.display()
@@ -112,14 +112,14 @@ fn is_no_file(path: &Path) -> Result<(), BadInput> {
 ///
 /// # Errors
 /// [`BadInput`] as [`admit_folder`] or in the system's words.
-pub fn make_folder(path: &Path) -> Result<(), BadInput> {
+pub fn make_folder(path: &Path) -> Result<Made, BadInput> {
     is_no_file(path)?;
-    Made::new(path)?.keep();
-    Ok(())
+    Made::new(path)
 }
 
 /// Folders that were made, the innermost first; taken away again unless they are kept.
-struct Made(Vec<PathBuf>);
+#[derive(Debug)]
+pub struct Made(Vec<PathBuf>);
 
 impl Made {
     fn new(path: &Path) -> Result<Made, BadInput> {
@@ -140,7 +140,8 @@ impl Made {
         }
     }
 
-    fn keep(mut self) {
+    /// Lets them stay.
+    pub fn keep(mut self) {
         self.0.clear();
     }
 }
@@ -168,6 +169,22 @@ where
         let mut out = BufWriter::new(io::stdout().lock());
         return unless_closed(fill(&mut out).and_then(|()| Ok(out.flush()?)));
     }
+    match draft(path, fill)? {
+        Some(draft) => Ok(draft.commit()?),
+        None => Ok(()),
+    }
+}
+
+/// Writes all of a file by `fill`, beside the one of that name, which stays as it is until
+/// [`Draft::commit`]: several files can so be written all or none. `None` for a device or pipe, which
+/// has been written to as it is.
+///
+/// # Errors
+/// As [`write`].
+pub fn draft<F>(path: &Path, fill: F) -> anyhow::Result<Option<Draft>>
+where
+    F: FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+{
     admit(path, &[])?;
     let refused = |error: io::Error| BadInput(format!("{}: cannot write: {error}", path.display()));
     let sorted = |error: anyhow::Error| match error.downcast::<io::Error>() {
@@ -178,22 +195,21 @@ where
     let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
         let mut out = File::options().write(true).open(&target).map_err(refused)?;
-        return fill(&mut out).map_err(sorted);
+        fill(&mut out).map_err(sorted)?;
+        return Ok(None);
     }
-    let draft = Draft::new(&target);
-    let mut out = BufWriter::new(File::create(&draft.path).map_err(refused)?);
+    let draft = Draft::new(path, target);
+    let mut out = BufWriter::new(File::create(&draft.passing).map_err(refused)?);
     fill(&mut out).map_err(sorted)?;
     let file = out
         .into_inner()
         .map_err(|error| refused(error.into_error()))?;
-    if let Ok(before) = fs::metadata(&target) {
+    if let Ok(before) = fs::metadata(&draft.target) {
         file.set_permissions(before.permissions())
             .map_err(refused)?;
     }
     file.sync_all().map_err(refused)?;
-    drop(file);
-    fs::rename(&draft.path, &target).map_err(refused)?;
-    Ok(())
+    Ok(Some(draft))
 }
 
 /// Prints a result. A reader that has had enough (`iwan causes | head`) is no error.
@@ -234,24 +250,43 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The file under its passing name, in the same folder; removed unless it was renamed.
-struct Draft {
-    path: PathBuf,
+/// A file under its passing name, in the folder of the one that it will be; removed unless it is
+/// committed.
+#[derive(Debug)]
+pub struct Draft {
+    named: PathBuf,
+    target: PathBuf,
+    passing: PathBuf,
 }
 
 impl Draft {
-    fn new(target: &Path) -> Draft {
-        let name = target.file_name().unwrap_or_default().to_string_lossy();
+    /// Of the file that is `named` so and stands at `target`.
+    fn new(named: &Path, target: PathBuf) -> Draft {
+        // of the name that was given: links of several names may lead to one file
+        let name = named.file_name().unwrap_or_default().to_string_lossy();
         let passing = format!(".{name}.{}.part", std::process::id());
         Draft {
-            path: folder_of(target).join(passing),
+            named: named.to_path_buf(),
+            passing: folder_of(&target).join(passing),
+            target,
         }
+    }
+
+    /// Gives the file its own name, in the place of what had it.
+    ///
+    /// # Errors
+    /// [`BadInput`] in the system's words.
+    pub fn commit(self) -> Result<(), BadInput> {
+        fs::rename(&self.passing, &self.target).map_err(|error| {
+            let shown = self.named.display();
+            BadInput(format!("{shown}: cannot write: {error}"))
+        })
     }
 }
 
 impl Drop for Draft {
     fn drop(&mut self) {
         // after the rename there is nothing to remove
-        let _ = fs::remove_file(&self.path);
+        let _ = fs::remove_file(&self.passing);
     }
 }

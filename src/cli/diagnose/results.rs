@@ -1,6 +1,7 @@
 //! The folder of a diagnosis: what may stand in it before, and what of an earlier one is taken away.
 
-use crate::cli::{BadInput, output};
+use crate::cli::BadInput;
+use crate::cli::output::{self, Draft};
 use crate::diagnose::experiment::Experiment;
 use std::path::Path;
 
@@ -77,13 +78,35 @@ fn is_program(text: &str) -> bool {
     blocks > 0 && is_header && lines.all(is_row)
 }
 
+/// Writes the results, named, into the folder, which is made where it is not there; tells each. Only when
+/// all of them are on the disk do they take the place of an earlier diagnosis's, of which nothing is
+/// left: one that finds no room leaves everything as it was.
+///
+/// # Errors
+/// [`BadInput`] naming the path, in the system's words.
+pub fn write(folder: &Path, files: &[(&str, Vec<u8>)], tell: impl Fn(&str)) -> anyhow::Result<()> {
+    let earlier = is_of_one(folder);
+    let made = output::make_folder(folder)?;
+    let drafts: Vec<Option<Draft>> = files
+        .iter()
+        .map(|(name, bytes)| output::draft(&folder.join(name), |out| Ok(out.write_all(bytes)?)))
+        .collect::<anyhow::Result<_>>()?;
+    for (draft, (name, _)) in drafts.into_iter().zip(files) {
+        if let Some(draft) = draft {
+            draft.commit()?;
+        }
+        tell(&folder.join(name).display().to_string());
+    }
+    made.keep();
+    let written: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    clear(folder, &written, earlier)?;
+    Ok(())
+}
+
 /// Takes away what an earlier diagnosis left in the folder and this one has not written anew: a joint
 /// or a programme beside findings that are not its own would mislead. `earlier` as [`is_of_one`] was
 /// before this one wrote: where no diagnosis has been, a joint is somebody else's and is kept.
-///
-/// # Errors
-/// [`BadInput`] in the system's words.
-pub fn clear(folder: &Path, written: &[&str], earlier: bool) -> Result<(), BadInput> {
+fn clear(folder: &Path, written: &[&str], earlier: bool) -> Result<(), BadInput> {
     for name in NAMES {
         let path = folder.join(name);
         if written.contains(&name) || !path.is_file() {
@@ -102,7 +125,7 @@ pub fn clear(folder: &Path, written: &[&str], earlier: bool) -> Result<(), BadIn
 }
 
 /// True where a diagnosis has written into the folder.
-pub fn is_of_one(folder: &Path) -> bool {
+fn is_of_one(folder: &Path) -> bool {
     let text = std::fs::read_to_string(folder.join("diagnosis.json"));
     text.is_ok_and(|text| text.contains("iwan-diagnosis/"))
 }
@@ -110,6 +133,53 @@ pub fn is_of_one(folder: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+
+    /// Names in the folder with what the files hold; `None` for folders.
+    fn content(folder: &Path) -> Vec<(String, Option<String>)> {
+        let entries = fs::read_dir(folder).expect("the folder").flatten();
+        let mut all: Vec<_> = entries
+            .map(|entry| {
+                let name = entry.file_name().to_string_lossy().into_owned();
+                (name, fs::read_to_string(entry.path()).ok())
+            })
+            .collect();
+        all.sort();
+        all
+    }
+
+    /// Two results and one of that name.
+    fn results(last: &str) -> [(&str, Vec<u8>); 3] {
+        ["report.html", "diagnosis.json", last].map(|name| (name, b"of this one".to_vec()))
+    }
+
+    #[test]
+    fn results_of_which_one_finds_no_place_leave_everything_as_it_was() {
+        let place = std::env::temp_dir().join(format!("iwan results {}", std::process::id()));
+        let _ = fs::remove_dir_all(&place); // of an earlier run, if any
+        fs::create_dir_all(place.join("joint.fmu")).expect("a folder where a file is to be");
+        let earlier = [
+            ("report.html", "of an earlier one"),
+            ("diagnosis.json", "{\"schema\": \"iwan-diagnosis/1\"}"),
+            ("joint.json", "of an earlier one"),
+        ];
+        for (name, text) in earlier {
+            fs::write(place.join(name), text).expect("written");
+        }
+        let before = content(&place);
+        assert!(write(&place, &results("joint.fmu"), |_| ()).is_err());
+        assert_eq!(content(&place), before);
+        // nor does a folder stay that was made for them: no file has a name that long
+        let inner = place.join("made/for it");
+        assert!(write(&inner, &results(&"x".repeat(300)), |_| ()).is_err());
+        assert_eq!(content(&place), before);
+        fs::remove_dir(place.join("joint.fmu")).expect("the folder");
+        assert!(write(&place, &results("joint.fmu"), |_| ()).is_ok());
+        let written = ["diagnosis.json", "joint.fmu", "report.html"];
+        let expected = written.map(|name| (name.to_owned(), Some("of this one".to_owned())));
+        assert_eq!(content(&place), expected);
+        fs::remove_dir_all(&place).expect("the test's own folder");
+    }
 
     #[test]
     fn a_program_is_told_from_what_was_measured_under_its_name() {
