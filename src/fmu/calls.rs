@@ -112,7 +112,8 @@ calls! {
     GET_STRING_STATUS "fmi2GetStringStatus" [S T];
 }
 
-// FMI 3.0, section 4.2, states of co-simulation without event mode: Step Mode is `stepping`.
+// FMI 3.0, sections 2.3 and 4.2, states of co-simulation without event mode: Step Mode is
+// `stepping`. Unlike FMI 2.0 it lets start values be read before initialization.
 calls! {
     ALL_OF_FMI_3:
     SET_DEBUG_LOGGING_3 "fmi3SetDebugLogging" [I N S T B];
@@ -120,7 +121,7 @@ calls! {
     EXIT_INITIALIZATION_MODE_3 "fmi3ExitInitializationMode" [N];
     TERMINATE_3 "fmi3Terminate" [S];
     RESET_3 "fmi3Reset" [I N S T B];
-    GET_FLOAT64_3 "fmi3GetFloat64" [N S T];
+    GET_FLOAT64_3 "fmi3GetFloat64" [I N S T];
     SET_FLOAT64_3 "fmi3SetFloat64" [I N S];
     GET_FMU_STATE_3 "fmi3GetFMUState" [I N S T];
     SET_FMU_STATE_3 "fmi3SetFMUState" [I N S T B];
@@ -136,6 +137,14 @@ calls! {
 
 /// A function that reads variables of a type that none has.
 pub const fn reading(name: &'static str) -> Call {
+    Call {
+        name,
+        allowed: &[I, N, S, T],
+    }
+}
+
+/// A function that reads intervals or shifts of clocks, of which there are none.
+pub const fn timing(name: &'static str) -> Call {
     Call {
         name,
         allowed: &[N, S, T],

@@ -63,6 +63,17 @@ impl Standard {
             Standard::Three => "resourcePath",
         }
     }
+
+    /// A text as the argument `message` of the logger. In either version `#` begins the reference
+    /// of a variable, so every `#` is doubled; in FMI 2.0 the message is moreover the *format* of a
+    /// printf, so every `%` is doubled and no argument follows.
+    fn message(self, text: &str) -> String {
+        let text = text.replace('#', "##");
+        match self {
+            Standard::Two => text.replace('%', "%%"),
+            Standard::Three => text,
+        }
+    }
 }
 
 /// Where messages go: one logger per version of the standard, each of which may be NULL.
@@ -101,20 +112,19 @@ impl Messenger {
         }
     }
 
-    /// Hands a text to the host; no logger, no message. To FMI 2.0 the text travels as the *format*
-    /// of a printf, so every `%` in it is doubled and no argument follows.
+    /// Hands a text to the host, escaped as its version asks; no logger, no message.
     pub fn tell(&self, status: Status, category: Category, text: &str) {
         if category == Category::Event && !self.debug {
             return;
         }
         let name = c_text(category.name());
+        let message = c_text(&self.standard().message(text));
         match self.host {
             Host::Two(Some(CallbackFunctions {
                 logger: Some(logger),
                 component_environment,
                 ..
             })) => {
-                let format = c_text(&text.replace('%', "%%"));
                 // SAFETY: the host promises that the logger of fmi2Instantiate stays callable until
                 // fmi2FreeInstance; the texts live to the end of this block and the format consumes
                 // no arguments.
@@ -124,12 +134,11 @@ impl Messenger {
                         self.instance.as_ptr(),
                         status as libc::c_int,
                         name.as_ptr(),
-                        format.as_ptr(),
+                        message.as_ptr(),
                     );
                 }
             }
             Host::Three(Some(logger), environment) => {
-                let text = c_text(text);
                 // SAFETY: the host promises that the logger stays callable until fmi3FreeInstance;
                 // the texts live to the end of this block.
                 unsafe {
@@ -137,7 +146,7 @@ impl Messenger {
                         environment,
                         status as libc::c_int,
                         name.as_ptr(),
-                        text.as_ptr(),
+                        message.as_ptr(),
                     );
                 }
             }
@@ -149,4 +158,21 @@ impl Messenger {
 /// A C string; NUL characters inside would end it early and become `?`.
 fn c_text(text: &str) -> CString {
     CString::new(text.replace('\0', "?")).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_version_reads_as_more_than_text_is_doubled() {
+        let text = "/data/#1#/50 %/joint.json";
+        let two = Standard::Two.message(text);
+        assert_eq!(two, "/data/##1##/50 %%/joint.json");
+        let three = Standard::Three.message(text);
+        assert_eq!(three, "/data/##1##/50 %/joint.json");
+        for standard in [Standard::Two, Standard::Three] {
+            assert_eq!(standard.message("came 4711"), "came 4711");
+        }
+    }
 }

@@ -132,7 +132,7 @@ impl Instance {
         }
     }
 
-    /// What the joint answers now.
+    /// What the joint answers now; before initialization it rests, and every answer is zero.
     fn answer(&mut self) -> Result<Output, Refusal> {
         let output = match self.mode {
             Mode::Initialization => self.initial()?.output(),

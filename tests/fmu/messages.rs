@@ -24,6 +24,18 @@ fn percent_signs_survive_the_hosts_printf() {
     );
 }
 
+/// A `#` would begin the reference of a variable; the host makes one of two.
+#[test]
+fn number_signs_are_doubled() {
+    let resources = Resources::new(BOLT);
+    let call = Instantiate {
+        guid: CString::new("#r1# 50 %").ok(),
+        ..Instantiate::of(&resources, Drive::Force)
+    };
+    let log = call.call().err().expect("a wrong GUID is refused");
+    assert!(log[0].text.contains("##r1## 50 %"), "{}", log[0].text);
+}
+
 #[test]
 fn a_refusal_says_function_expected_and_came() {
     let resources = Resources::new(BOLT);

@@ -4,7 +4,7 @@ use super::host::{ANSWERS, BOLT, BOLT_WITH_CAUSES, DISPLACEMENT, FORCE, Resource
 use super::three_host::Three;
 use iwan::fmu::*;
 use iwan::joint::Drive;
-use iwan::variables::{TIME_REFERENCE, guid};
+use iwan::variables::{TIME_REFERENCE, Variables, guid};
 use std::ffi::CStr;
 use std::ptr;
 
@@ -34,6 +34,29 @@ fn the_answers_are_those_of_fmi_2_to_the_last_bit() {
     }
 }
 
+/// Parameters and the input as they start or were set; what is calculated is that of a joint at rest.
+#[test]
+fn start_values_are_read_before_initialization() {
+    for json in [BOLT, BOLT_WITH_CAUSES] {
+        let resources = Resources::new(json);
+        let joint = resources.joint();
+        let variables = Variables::of(&joint, Drive::Force).unwrap();
+        let references = variables.parameters.iter().map(|one| one.reference);
+        let references: Vec<_> = references.collect();
+        let three = Three::new(&resources, Drive::Force);
+        let at_start = || {
+            assert_eq!(three.get(&references), variables.values(&joint));
+            assert_eq!(three.get(&[TIME_REFERENCE, FORCE]), [0.0; 2]);
+            assert_eq!(three.get(&ANSWERS), [0.0; ANSWERS.len()]);
+        };
+        at_start();
+        three.ok(three.set(FORCE, 100.0));
+        assert_eq!(three.get(&[FORCE, DISPLACEMENT]), [100.0, 0.0]);
+        three.ok(unsafe { fmi3Reset(three.handle) });
+        at_start();
+    }
+}
+
 #[test]
 fn instances_that_cannot_be_are_refused() {
     let resources = Resources::new(BOLT);
@@ -49,6 +72,7 @@ fn instances_that_cannot_be_are_refused() {
     let another = format!(": instantiationToken: expected {token} or ");
     refused("another", Some(&path), false, &another);
     refused("another", Some(&path), false, "came another");
+    refused("#1# 50 %", Some(&path), false, "came ##1## 50 %");
     refused(&token, None, false, ": resourcePath: expected where ");
     let uri = Some("http://a/b");
     refused(&token, uri, false, ": resourcePath: expected a file: URI");

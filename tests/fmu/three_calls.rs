@@ -17,25 +17,25 @@ impl Hosted for Three {
             fmi3ExitInitializationMode "N" ();
             fmi3Terminate "S" ();
             fmi3Reset "INST" ();
-            fmi3GetFloat64 "NST" (read &DISPLACEMENT, plain 1, write &mut 0.0, plain 1);
+            fmi3GetFloat64 "INST" (read &DISPLACEMENT, plain 1, write &mut 0.0, plain 1);
             fmi3SetFloat64 "INS" (read &FORCE, plain 1, read &0.0, plain 1);
             fmi3GetDirectionalDerivative "NST" (read &DISPLACEMENT, plain 1, read &FORCE, plain 1, read &1.0, plain 1, write &mut 0.0, plain 1);
             fmi3GetAdjointDerivative "NST" (read &DISPLACEMENT, plain 1, read &FORCE, plain 1, read &1.0, plain 1, write &mut 0.0, plain 1);
             fmi3GetOutputDerivatives "ST" (read &DISPLACEMENT, plain 1, read &1, write &mut 0.0, plain 1);
             // Of types that no variable has.
-            fmi3GetFloat32 "NST" (read &0, count 1, write &mut 0.0, count 1);
-            fmi3GetInt8 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetUInt8 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetInt16 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetUInt16 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetInt32 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetUInt32 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetInt64 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetUInt64 "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetBoolean "NST" (read &0, count 1, write &mut 0, count 1);
-            fmi3GetString "NST" (read &0, count 1, write &mut null(), count 1);
-            fmi3GetBinary "NST" (read &0, count 1, write &mut 0, write &mut null(), count 1);
-            fmi3GetClock "NST" (read &0, count 1, write &mut 0);
+            fmi3GetFloat32 "INST" (read &0, count 1, write &mut 0.0, count 1);
+            fmi3GetInt8 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetUInt8 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetInt16 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetUInt16 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetInt32 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetUInt32 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetInt64 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetUInt64 "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetBoolean "INST" (read &0, count 1, write &mut 0, count 1);
+            fmi3GetString "INST" (read &0, count 1, write &mut null(), count 1);
+            fmi3GetBinary "INST" (read &0, count 1, write &mut 0, write &mut null(), count 1);
+            fmi3GetClock "INST" (read &0, count 1, write &mut 0);
             fmi3GetIntervalDecimal "NST" (read &0, count 1, write &mut 0.0, write &mut 0);
             fmi3GetIntervalFraction "NST" (read &0, count 1, write &mut 0, write &mut 0, write &mut 0);
             fmi3GetShiftDecimal "NST" (read &0, count 1, write &mut 0.0);
@@ -106,7 +106,7 @@ impl Hosted for Three {
 fn step_on(three: &Three, turn: &Turn) -> Status {
     let (mut now, mut time, [mut event, mut end, mut early]) = (0.0, 0.0, [0; 3]);
     unsafe {
-        // Refused where no step would be allowed either.
+        // Refused only where no step would be allowed either.
         let _ = fmi3GetFloat64(three.handle, &TIME_REFERENCE, 1, &mut now, 1);
         fmi3DoStep(
             turn.handle(three.handle),

@@ -20,7 +20,7 @@ pub(super) fn scalars(argument: &'static str, expected: usize, came: usize) -> R
     })
 }
 
-/// Reads Float64 variables.
+/// Reads Float64 variables; before initialization their start values, of what is calculated zero.
 ///
 /// # Safety
 /// As the FMI standard asks: a handle of this library, the counted items in each array.
@@ -137,10 +137,10 @@ no_variables! {
     fmi3SetString("String", setting; *const *const c_char, size_t);
     fmi3SetBinary("Binary", setting; *const size_t, *const *const u8, size_t);
     fmi3SetClock("Clock", setting; *const Boolean3);
-    fmi3GetIntervalDecimal("Clock", reading; *mut f64, *mut libc::c_int);
-    fmi3GetIntervalFraction("Clock", reading; *mut u64, *mut u64, *mut libc::c_int);
-    fmi3GetShiftDecimal("Clock", reading; *mut f64);
-    fmi3GetShiftFraction("Clock", reading; *mut u64, *mut u64);
+    fmi3GetIntervalDecimal("Clock", timing; *mut f64, *mut libc::c_int);
+    fmi3GetIntervalFraction("Clock", timing; *mut u64, *mut u64, *mut libc::c_int);
+    fmi3GetShiftDecimal("Clock", timing; *mut f64);
+    fmi3GetShiftFraction("Clock", timing; *mut u64, *mut u64);
     fmi3SetIntervalDecimal("Clock", setting; *const f64);
     fmi3SetIntervalFraction("Clock", setting; *const u64, *const u64);
     fmi3SetShiftDecimal("Clock", setting; *const f64);
