@@ -15,8 +15,8 @@
 # Libraries go to target/platforms/PLATFORM/. What cannot be built or run on this machine is said
 # in the table at the end and left out of the archive; a platform asked for by name must be built.
 # Exit status 0: everything that was tried succeeded; 1: a build failed or a platform answers
-# differently; 2: usage, or a named platform lacks its tools; 4: with --check, where a platform was
-# not run, which a line `NOT RUN` tells.
+# differently; 2: usage, a named platform lacks its tools, or a machine other than Linux on x86-64;
+# 4: with --check, where a platform was not run, on such a machine none, which a line `NOT RUN` tells.
 #
 # Rust's standard library for a platform comes from rustup; where rustup can fetch nothing, Debian's
 # packages of the compiler and its sources are unpacked into target/platforms and the standard
@@ -34,7 +34,14 @@ while [ $# -gt 0 ]; do
     --check) check=yes ;;
     --joint | --output)
         [ $# -ge 2 ] || { echo "build-platforms: $1 needs a file" >&2; exit 2; }
-        [ "$1" = --joint ] && joint=$(realpath "$2") || output=$(realpath -m "$2")
+        if [ "$1" = --output ]; then
+            output=$(realpath -m "$2")
+        elif [ -e "$2" ]; then
+            joint=$(realpath "$2")
+        else
+            echo "build-platforms: --joint: expected a file, there is no $2" >&2
+            exit 2
+        fi
         shift
         ;;
     linux64 | win64 | aarch64-linux) asked+=("$1") ;;
@@ -53,8 +60,14 @@ out="$REPOSITORY/target/platforms"
 joint=${joint:-"$tools/causes.json"}
 output=${output:-"$out/joint.fmu"}
 mkdir -p "$out"
-[ "$(uname -s)-$(uname -m)" = Linux-x86_64 ] ||
+machine=$(uname -s)-$(uname -m)
+if [ "$machine" != Linux-x86_64 ]; then
+    if [ "$check" = yes ]; then
+        echo "NOT RUN: linux64 win64 aarch64-linux: written for Linux on x86-64, this is $machine"
+        exit 4
+    fi
     stop "written for Linux on x86-64; elsewhere: cargo rustc --release --lib --crate-type cdylib --no-default-features --target TRIPLE, then iwan export --binary PLATFORM=FILE"
+fi
 
 declare -A triple=(
     [linux64]=x86_64-unknown-linux-gnu

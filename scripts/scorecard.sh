@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # How often the finder is right, measured over hundreds of blind cases drawn from one seed.
 #
 #   scripts/scorecard.sh [ROUNDS] [SEED] [OUTPUT_DIR] [WORDS…]
@@ -13,18 +13,19 @@
 # Writes OUTPUT_DIR/*.jsonl, one line a case as it comes, and after every round scorecard.json,
 # scorecard.md, matrix.svg, power.svg and reliability.svg; prints the tables. Called again with the same
 # seed and folder it goes on where it stopped, with the program it began with (OUTPUT_DIR/iwan).
-set -eu
-cd "$(dirname "$0")/.."
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
 rounds=${1:-3}
 seed=${2:-$(date +%s)}
 output=${3:-result/scorecard-$seed}
 [ $# -gt 3 ] && shift 3 || shift $#
+# Said before scripts/setup.sh is sourced, which sets PYTHON.
 python=${PYTHON:-.venv/bin/python}
 
 mkdir -p "$output"
 if [ ! -x "$output/iwan" ]; then
-    cargo build --locked --release --bin iwan
-    cp "${CARGO_TARGET_DIR:-target}/release/iwan" "$output/iwan"
+    source scripts/setup.sh
+    cp "$IWAN" "$output/iwan"
     git describe --always --dirty --exclude '*' >"$output/commit" 2>/dev/null || echo unknown >"$output/commit"
 fi
 # One case per job: threads within a case would only fight over the cores.

@@ -117,13 +117,13 @@ def build_bodies(folder: Path, drive: str = "displacement") -> Path:
     """The bodies for such a joint, compiled for this machine with the headers that fmpy has."""
     source, identifier = BODIES[drive]
     headers = Path(fmpy.__file__).parent / "c-code"
-    library = folder / f"{identifier}.so"
+    library = folder / f"{identifier}{fmpy.sharedLibraryExtension}"
     command = [os.environ.get("CC", "cc"), "-O2", "-Wall", "-shared", "-fPIC", f"-I{headers}"]
     subprocess.run([*command, "-o", library, HERE / f"{source}.c"], check=True)
     archive = folder / f"{source}.fmu"
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as content:
         content.write(HERE / f"{source}.xml", "modelDescription.xml")
-        content.write(library, f"binaries/linux64/{identifier}.so")
+        content.write(library, f"binaries/{fmpy.platform}/{library.name}")
     return archive
 
 
