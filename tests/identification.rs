@@ -297,6 +297,48 @@ fn a_square_law_is_not_taken_for_slip() {
     );
 }
 
+/// A dashpot's table has no joint, and one whose stiffness and loss no slip lets go together neither.
+#[test]
+fn no_joint_is_made_that_slips_below_the_measured_loads() {
+    let force: Vec<f64> = vec![100.0, 200.0, 400.0, 800.0];
+    let table = |loss: f64, power: f64| AmplitudeTable {
+        name: "levels".into(),
+        dissipation: force.iter().map(|f| loss * f.powf(power)).collect(),
+        displacement_amplitude: Some(force.iter().map(|f| 1e-7 * f).collect()),
+        force_amplitude: force.clone(),
+        ..AmplitudeTable::default()
+    };
+    let joint = |loss, power| {
+        let seed = seed::of_table(&table(loss, power)).expect("four rows");
+        family::joint_of_law(&seed)
+    };
+    for (loss, power) in [(1e-8, 2.0), (8e-9, 2.1)] {
+        let refused = joint(loss, power).expect_err("no slip does this");
+        assert!(refused.to_string().contains("time history"), "{refused}");
+    }
+    let slipping = joint(1e-13, 2.7).expect("friction loses little");
+    assert!(slipping.full_slip_force() > 800.0);
+}
+
+/// The same test behind a sensor whose zero is off has the same joint.
+#[test]
+fn a_displacement_sensor_may_have_any_zero_where_it_drives() {
+    let record = |zero: f64| Record {
+        name: "zero".into(),
+        displacement: (0..400)
+            .map(|i| 3e-4 * (0.05 * f64::from(i)).sin() + zero)
+            .collect(),
+        force: vec![0.0; 400],
+        ..Record::default()
+    };
+    let (plain, off) = (record(0.0), record(5e-3));
+    let driven = |r| family::driven(r, Drive::Displacement).into_owned();
+    let both = driven(&plain).into_iter().zip(driven(&off));
+    for (plain, off) in both {
+        assert!((plain - off).abs() < 1e-15, "{plain} {off}");
+    }
+}
+
 /// The bolted beam's table, where the measured records are at hand.
 #[test]
 fn the_bolted_beam_has_no_single_power_law() {

@@ -1,6 +1,6 @@
 //! Everything one identification found, for the report in text and in JSON.
 
-use crate::identify::family::{self, FamilyFit};
+use crate::identify::family::{self, FamilyFit, driven};
 use crate::identify::interval::Estimated;
 use crate::identify::problem::Problem;
 use crate::identify::seed::{self, Seed};
@@ -193,7 +193,12 @@ fn any_joint(records: &[&Record], drive: Drive) -> Option<f64> {
         Drive::Force => Form::Play,
         Drive::Displacement => Form::Stop,
     };
-    let owned: Vec<Record> = records.iter().map(|&r| r.clone()).collect();
+    let mut owned: Vec<Record> = records.iter().map(|&r| r.clone()).collect();
+    if drive == Drive::Displacement {
+        for record in &mut owned {
+            record.displacement = driven(record, drive).into_owned();
+        }
+    }
     let count: usize = owned.iter().map(Record::len).sum();
     let fit = baseline(&Problem::new(form, &owned));
     (count > 0).then(|| (fit.misfit / count as f64).sqrt())

@@ -14,6 +14,7 @@ mod uncertainty;
 pub use branches::Branches;
 pub use levenberg::{Free, Minimum, minimise};
 pub use shape::{Shape, Size};
+pub use target::driven;
 
 use super::interval::Estimated;
 use super::seed::{Over, Seed};
@@ -205,6 +206,12 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
             "give the column `displacement amplitude [m]`, or --stiffness N/m, for the stiffness",
         );
     };
+    if law.exponent.at_boundary.is_some() {
+        return missing(
+            "the loss grows as the square of the force, as a linear viscous or hysteretic element's does, or more \
+             steeply than slip's; give levels at which friction is what loses, or a time history",
+        );
+    }
     let reference = seed.largest_force;
     let shape = Shape {
         series_stiffness: stiffness.series.value,
@@ -216,6 +223,13 @@ pub fn joint_of_law(seed: &Seed) -> Result<Joint, FamilyError> {
         network_share: 1.0,
         last_share: 0.0,
     };
+    // A stiffness and a loss that no slip lets go together.
+    if shape.slip_force() <= reference {
+        return missing(
+            "a joint of this loss and stiffness would have slipped in full below the largest force; give a time \
+             history",
+        );
+    }
     Ok(joint(&shape, false)?)
 }
 

@@ -4,6 +4,7 @@ use super::branches::Branches;
 use super::shape::Shape;
 use crate::joint::{Drive, VirginCurve};
 use crate::record::Record;
+use std::borrow::Cow;
 
 /// Samples judged in all: beyond this every second, third … is taken.
 const MOST_SAMPLES: usize = 20_000;
@@ -27,6 +28,17 @@ pub struct Target {
     scale: f64,
 }
 
+/// The channel that drives; a displacement from where the record begins, for its sensor may have any zero.
+pub fn driven(record: &Record, drive: Drive) -> Cow<'_, [f64]> {
+    match drive {
+        Drive::Force => Cow::Borrowed(&record.force),
+        Drive::Displacement => {
+            let begins = record.displacement.first().copied().unwrap_or(0.0);
+            Cow::Owned(record.displacement.iter().map(|u| u - begins).collect())
+        }
+    }
+}
+
 impl Target {
     /// The records under one drive: displacement judged under force, force under displacement.
     pub fn of_records(records: &[&Record], drive: Drive) -> Target {
@@ -37,9 +49,10 @@ impl Target {
     pub fn of_some(records: &[&Record], drive: Drive, most: usize) -> Target {
         let count: usize = records.iter().map(|r| r.len()).sum();
         let stride = count.div_ceil(most).max(1);
-        let channels = records.iter().map(|r| match drive {
-            Drive::Force => (r.force.as_slice(), r.displacement.as_slice()),
-            Drive::Displacement => (r.displacement.as_slice(), r.force.as_slice()),
+        let driven: Vec<Cow<'_, [f64]>> = records.iter().map(|r| driven(r, drive)).collect();
+        let channels = records.iter().zip(&driven).map(|(r, driven)| match drive {
+            Drive::Force => (driven.as_ref(), r.displacement.as_slice()),
+            Drive::Displacement => (driven.as_ref(), r.force.as_slice()),
         });
         Target::new(channels, drive, true, stride)
     }

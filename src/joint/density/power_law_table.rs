@@ -131,7 +131,7 @@ impl PowerLawTable {
         let pieces = pieces(&seed, slider_stiffness, &break_free, &density);
         let needed = stiffness - pieces[pieces.len() - 1].stiffness;
         // K_T taken from the table's own sum may miss it by rounding.
-        if needed > stiffness * (1.0 + 1e-12) || seed.limit * slider_stiffness < break_free[0] {
+        if needed > stiffness * (1.0 + 1e-12) || seed.limit < break_free[0] / slider_stiffness {
             return Err(JointError::OutOfRange {
                 name: STIFFNESS.name.into(),
                 value: stiffness,
