@@ -1,5 +1,6 @@
 //! Records of one beginning with what was found in them, and how likely that is beside other beginnings.
 
+use super::common_noise::CommonNoise;
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
@@ -301,7 +302,7 @@ impl Investigation {
 
     /// True where this is likelier than another.
     pub(super) fn is_likelier_than(&self, other: &Investigation) -> bool {
-        let common = Common::of([self, other]);
+        let common = CommonNoise::of([self, other]);
         self.unlikeliness(common) < other.unlikeliness(common)
     }
 
@@ -311,7 +312,7 @@ impl Investigation {
     ///
     /// A sample that one of two weighs and the other does not, held out or struck or behind a turn that nothing tells of,
     /// speaks for neither as far as it is noise.
-    pub(super) fn unlikeliness(&self, common: Common) -> f64 {
+    pub(super) fn unlikeliness(&self, common: CommonNoise) -> f64 {
         let train = &self.bench.train;
         let rows = train.rows() as f64;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));
@@ -324,31 +325,6 @@ impl Investigation {
         self.bench.innovations() - rows * common.innovation + misfit / common.dispersion - rows
             + chosen
             + causes.len() as f64 * ALARM
-    }
-}
-
-/// What the misfits of several searches of the same records are compared over.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Common {
-    /// The least dispersion of any.
-    dispersion: f64,
-    /// Logarithm of the noise's innovation squared, their mean.
-    innovation: f64,
-}
-
-impl Common {
-    /// That of the given searches.
-    pub(super) fn of<'a>(all: impl IntoIterator<Item = &'a Investigation>) -> Common {
-        let (mut dispersion, mut sum, mut count) = (f64::INFINITY, 0.0, 0.0);
-        for one in all {
-            dispersion = dispersion.min(one.dispersion());
-            sum += one.bench.innovation_square().ln();
-            count += 1.0;
-        }
-        Common {
-            dispersion,
-            innovation: sum / f64::max(count, 1.0),
-        }
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod amplitude_table;
 pub mod bootstrap;
 mod catalogue;
+mod common_noise;
 mod curves;
 mod drive;
 mod driven;

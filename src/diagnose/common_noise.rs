@@ -1,0 +1,28 @@
+//! The noise that searches of the same records, each with its own, are compared over.
+
+use super::investigation::Investigation;
+
+/// What the misfits of several searches of the same records are compared over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CommonNoise {
+    /// The least dispersion of any.
+    pub(super) dispersion: f64,
+    /// Logarithm of the noise's innovation squared, their mean.
+    pub(super) innovation: f64,
+}
+
+impl CommonNoise {
+    /// That of the given searches.
+    pub(super) fn of<'a>(all: impl IntoIterator<Item = &'a Investigation>) -> CommonNoise {
+        let (mut dispersion, mut sum, mut count) = (f64::INFINITY, 0.0, 0.0);
+        for one in all {
+            dispersion = dispersion.min(one.dispersion());
+            sum += one.bench.innovation_square().ln();
+            count += 1.0;
+        }
+        CommonNoise {
+            dispersion,
+            innovation: sum / f64::max(count, 1.0),
+        }
+    }
+}
