@@ -1,9 +1,9 @@
 //! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint.
 
-use super::common_noise::CommonNoise;
 use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
 use super::judged_channel::form;
+use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
 use super::trials::{ALARM, Effort, Trial, one_leaves, penalty, trials};
 
@@ -74,7 +74,7 @@ pub(super) fn made_anew(
         if all.len() < 2 {
             return 0;
         }
-        let common = CommonNoise::of(all);
+        let common = NoiseOfAll::of(all);
         let unlikely = |i: &Investigation| {
             // Where a past is the rule, a virgin joint and a cause that does its work are two oddities; so is a past
             // where none is the rule, which may do the work of a cause, and a cause that may do the work of a past.

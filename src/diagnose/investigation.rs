@@ -1,7 +1,7 @@
 //! Records of one beginning with what was found in them, and how likely that is beside other beginnings.
 
-use super::common_noise::CommonNoise;
 use super::growing::{FURTHER_SHARE, leaves_structure};
+use super::noise_of_all::NoiseOfAll;
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of, trials_of};
@@ -302,7 +302,7 @@ impl Investigation {
 
     /// True where this is likelier than another.
     pub(super) fn is_likelier_than(&self, other: &Investigation) -> bool {
-        let common = CommonNoise::of([self, other]);
+        let common = NoiseOfAll::of([self, other]);
         self.unlikeliness(common) < other.unlikeliness(common)
     }
 
@@ -312,7 +312,7 @@ impl Investigation {
     ///
     /// A sample that one of two weighs and the other does not, held out or struck or behind a turn that nothing tells of,
     /// speaks for neither as far as it is noise.
-    pub(super) fn unlikeliness(&self, common: CommonNoise) -> f64 {
+    pub(super) fn unlikeliness(&self, common: NoiseOfAll) -> f64 {
         let train = &self.bench.train;
         let rows = train.rows() as f64;
         let (misfit, _) = train.misfit(&self.found.best.predict(train));

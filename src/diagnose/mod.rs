@@ -3,7 +3,6 @@
 pub mod amplitude_table;
 pub mod bootstrap;
 mod catalogue;
-mod common_noise;
 mod curves;
 mod drive;
 mod driven;
@@ -22,6 +21,7 @@ pub mod intervals;
 mod investigation;
 pub mod joint_parameters;
 pub mod judged_channel;
+mod noise_of_all;
 
 pub mod left_out;
 pub mod levels;
