@@ -274,6 +274,15 @@ impl Problem {
             .collect()
     }
 
+    /// Measured less predicted at the first sample that counts: a sensor a millimetre off whose noise is a nanometre would
+    /// take six of the digits of every square, so it is taken off before.
+    pub(super) fn stand_off(&self, k: usize, prediction: &Prediction) -> f64 {
+        let (_, measured) = self.channels(k);
+        let mut counted = (0..measured.len()).filter(|&i| self.records[k].counts(i));
+        let first = counted.next();
+        first.map_or(0.0, |i| measured[i] - prediction.judged[i])
+    }
+
     /// Whitened sum of squares of measured − predicted with each record's best offset, and those
     /// offsets.
     pub fn misfit(&self, predictions: &[Prediction]) -> (f64, Vec<f64>) {
@@ -284,8 +293,9 @@ impl Problem {
             let record = &self.records[k];
             let (mut squares, mut product, mut norm) = (0.0, 0.0, 0.0);
             let mut before = None;
+            let stand_off = self.stand_off(k, prediction);
             for ((&y, &p), &w) in measured.iter().zip(&prediction.judged).zip(&record.weight) {
-                let residual = y - p;
+                let residual = y - p - stand_off;
                 let (z, one) = whiten(record.autoregression, residual, before);
                 before = (w > 0.0).then_some(residual);
                 squares += (w * z).powi(2);
@@ -300,7 +310,7 @@ impl Problem {
             } else {
                 f64::INFINITY
             };
-            offsets.push(offset);
+            offsets.push(stand_off + offset);
         }
         (total, offsets)
     }
@@ -336,6 +346,32 @@ mod tests {
     use crate::identify::rows::tests::Beside;
     use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
+
+    /// A sensor a billion times its noise away from zero leaves what it leaves at zero, and one offset takes that away.
+    #[test]
+    fn a_sensor_that_stands_off_takes_no_digits() {
+        let mut noise = crate::record::noise::tests::drawn(20261127);
+        let mut record = Record {
+            name: "probe".to_string(),
+            force: (0..1000).map(|i| (0.05 * f64::from(i)).sin()).collect(),
+            time: Some((0..1000).map(|i| 0.01 * f64::from(i)).collect()),
+            ..Record::default()
+        };
+        let answer = |f: &f64| 1e-7 * (f + 0.2 * f.powi(3)) + 1e-9 * noise();
+        record.displacement = record.force.iter().map(answer).collect();
+        let mut fits = [0.0, 1.0].map(|zero| {
+            let mut off = record.clone();
+            off.displacement.iter_mut().for_each(|u| *u += zero);
+            let mut problem = Problem::new(Form::Play, &[off]);
+            problem.records[0].weight.fill(1e9);
+            let fit = crate::identify::baseline(&problem);
+            (fit.misfit, fit.offsets[0])
+        });
+        fits.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let [near, far] = fits;
+        assert!((far.0 / near.0 - 1.0).abs() < 1e-3, "{near:?} {far:?}");
+        assert!((far.1 - near.1 - 1.0).abs() < 1e-10, "{near:?} {far:?}");
+    }
 
     /// A load cell that reads too much; by what its law says it follows.
     struct Gain {

@@ -59,7 +59,7 @@ impl Rows {
 }
 
 /// Every whitened row of the model of record `k`, linearised, its target last: coefficients, an offset
-/// per record, moves of the effects' values.
+/// per record beyond what it [stands off](Problem::stand_off) by, moves of the effects' values.
 pub(super) fn each_row(
     problem: &Problem,
     k: usize,
@@ -75,6 +75,7 @@ pub(super) fn each_row(
     let mut weighing = Weighing::new(&problem.records[k], size + 1);
     let mut row = vec![0.0; size + 1];
     let mut rows = Rows::default();
+    let stand_off = problem.stand_off(k, at);
     problem.pass(k, coefficients, effects, |i, march, step| {
         rows.next(march, step, &mut row[..columns]);
         let Some(i) = i else { return };
@@ -87,7 +88,7 @@ pub(super) fn each_row(
             .zip(coefficients)
             .map(|(x, c)| x * c)
             .sum();
-        row[size] = measured[i] - at.judged[i] + linear;
+        row[size] = measured[i] - at.judged[i] - stand_off + linear;
         if let Some(white) = weighing.weigh(i, &row) {
             each(white);
         }
