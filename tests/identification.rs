@@ -320,9 +320,9 @@ fn no_joint_is_made_that_slips_below_the_measured_loads() {
     assert!(slipping.full_slip_force() > 800.0);
 }
 
-/// The same test behind a sensor whose zero is off has the same joint.
+/// A displacement that drives an identification is counted from where its record begins.
 #[test]
-fn a_displacement_sensor_may_have_any_zero_where_it_drives() {
+fn a_displacement_that_drives_has_no_zero_of_its_own() {
     let record = |zero: f64| Record {
         name: "zero".into(),
         displacement: (0..400)

@@ -52,7 +52,7 @@ fn at(a: f64, powers: &Powers) -> f64 {
 /// Standard deviation and correlation of neighbours of the noise whose differences these are, the latter without the bias of
 /// short parts: that of which these have the mean product of neighbours over their mean square.
 pub(super) fn moments(parts: &[&Blended]) -> (f64, f64) {
-    let (mut squares, mut products, mut count) = (0.0, 0.0, 0.0);
+    let (mut squares, mut products, mut count, mut any) = (0.0, 0.0, 0.0, 0.0);
     let (mut square, mut product) = (Powers::default(), Powers::default());
     for part in parts {
         let samples = part.differences.len() as f64;
@@ -63,12 +63,15 @@ pub(super) fn moments(parts: &[&Blended]) -> (f64, f64) {
             .windows(2)
             .map(|w| w[0] * w[1])
             .sum::<f64>();
-        for power in 0..square.len() {
-            square[power] += samples * part.covariance(0)[power];
-            product[power] += (samples - 1.0).max(0.0) * part.covariance(1)[power];
+        let pairs = (samples - 1.0).max(0.0);
+        any += pairs;
+        let (own, next) = (part.covariance(0), part.covariance(1));
+        for power in 0..own.len() {
+            square[power] += samples * own[power];
+            product[power] += pairs * next[power];
         }
     }
-    if squares <= 0.0 || products == 0.0 {
+    if squares <= 0.0 || any <= 0.0 {
         return (0.0, 0.0);
     }
     let alike = |a: f64| at(a, &product) / at(a, &square);

@@ -101,8 +101,9 @@ fn noise_of(parts: Vec<Blended>) -> Option<Noise> {
 /// Fewest samples in repeated cycles from which noise is estimated.
 const ENOUGH: usize = 150;
 
-fn count(parts: &[Blended]) -> usize {
-    parts.iter().map(|part| part.differences.len()).sum()
+fn count<'a>(parts: impl IntoIterator<Item = &'a Blended>) -> usize {
+    let lengths = parts.into_iter().map(|part| part.differences.len());
+    lengths.sum()
 }
 
 /// Second difference of the drive, over its amplitude, up to which cycles repeat at all.
@@ -212,12 +213,7 @@ fn calm(parts: Vec<Blended>) -> Vec<Blended> {
     for _ in 0..8 {
         let calm = within(most);
         // From too few samples no correlation can be told.
-        if calm
-            .iter()
-            .map(|part| part.differences.len())
-            .sum::<usize>()
-            < ENOUGH
-        {
+        if count(calm.iter().copied()) < ENOUGH {
             break;
         }
         let (_, a) = moments(&calm);
