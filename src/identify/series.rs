@@ -14,7 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     symbol: "1/K_1",
     unit: "m/N",
     lower: 0.0,
-    upper: 1e-2,
+    upper: 1e6,
     vanishes_at: Some(0.0),
     neutral: None,
     meaning: "displacement of the spring in series per force",
