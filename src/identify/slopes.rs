@@ -34,8 +34,7 @@ pub(super) fn slopes(
             };
             let mut unit = share
                 * match value.abs() {
-                    // No size to go by.
-                    0.0 => 1e-6 * (parameter.upper - parameter.lower).min(1.0),
+                    0.0 => beside_zero(acting, p),
                     size => size,
                 };
             if value + unit > parameter.upper {
@@ -55,6 +54,20 @@ pub(super) fn slopes(
         }
     }
     slopes
+}
+
+/// A size for a parameter that stands at zero: the largest of the law's others in the same unit; where there is none, a
+/// millionth of its range or of one.
+fn beside_zero(acting: &Acting, parameter: usize) -> f64 {
+    let all = acting.effect.parameters();
+    let of_unit = all.iter().zip(&acting.values);
+    let largest = of_unit
+        .filter(|(other, _)| other.unit == all[parameter].unit)
+        .fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
+    match largest > 0.0 {
+        true => largest,
+        false => 1e-6 * (all[parameter].upper - all[parameter].lower).min(1.0),
+    }
 }
 
 /// Factor by which a value that cannot be zero falls in one step at most.
@@ -112,10 +125,10 @@ mod tests {
     use crate::joint::effect::{Effect, Place};
     use crate::joint::parameters::Parameter;
 
-    /// A law of a size and a time.
+    /// A law of a size, a time and a limit of the size.
     struct Slow;
 
-    static VALUES: [Parameter; 2] = [
+    static VALUES: [Parameter; 3] = [
         Parameter {
             name: "size",
             symbol: "a",
@@ -136,6 +149,16 @@ mod tests {
             neutral: None,
             meaning: "cannot be zero",
         },
+        Parameter {
+            name: "limit",
+            symbol: "l",
+            unit: "1",
+            lower: 0.0,
+            upper: 1e9,
+            vanishes_at: None,
+            neutral: None,
+            meaning: "may stand at zero",
+        },
     ];
 
     impl Effect for Slow {
@@ -155,7 +178,7 @@ mod tests {
         let effect: &'static dyn Effect = &Slow;
         let from = [Acting {
             effect,
-            values: vec![1.0, 2.0],
+            values: vec![1.0, 2.0, 0.0],
         }];
         let slopes = [0, 1].map(|parameter| Slope {
             effect: 0,
@@ -163,7 +186,7 @@ mod tests {
             unit: 0.1,
             values: Vec::new(),
         });
-        let after = |moves: [f64; 2]| moved(&from, &slopes, &moves)[0].values.clone();
+        let after = |moves: [f64; 2]| moved(&from, &slopes, &moves)[0].values[..2].to_vec();
         // The size goes straight on, to its bound; so does the time upwards.
         assert_eq!(after([-30.0, 30.0]), [-2.0, 5.0]);
         assert_eq!(after([-90.0, 0.0]), [-5.0, 2.0]);
@@ -172,5 +195,18 @@ mod tests {
         assert_eq!(after([0.0, -1e9]), [1.0, 0.2]);
         let little = after([0.0, -1e-3])[1];
         assert!((little - (2.0 - 1e-4)).abs() < 1e-8, "{little}");
+    }
+    #[test]
+    fn a_limit_at_zero_has_the_size_of_what_it_limits() {
+        let of = |values: [f64; 3]| {
+            let law = Acting {
+                effect: &Slow,
+                values: values.to_vec(),
+            };
+            [0, 1, 2].map(|p| beside_zero(&law, p))
+        };
+        assert_eq!(of([-300.0, 2.0, 0.0]), [300.0, 2.0, 300.0]);
+        // Nothing of its unit: a millionth of its range, at most of one.
+        assert_eq!(of([0.0, 0.0, 0.0]), [1e-6, 1e-6, 1e-6]);
     }
 }
