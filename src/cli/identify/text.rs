@@ -97,7 +97,7 @@ fn procedure(out: &mut String, seed: &Seed) {
         let range = format!(
             "{} of {} levels, {:.4e} to {:.4e} {unit}",
             law.used.1 - law.used.0,
-            law.local_slopes.len() + 1,
+            seed.levels.len(),
             law.range.0,
             law.range.1
         );

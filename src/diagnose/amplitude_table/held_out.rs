@@ -3,9 +3,10 @@
 use super::effects::Shown;
 use super::levels::Levels;
 use super::model::{Predicted, fit};
-use super::scatter::{APART, Scatter};
+use super::scatter::Scatter;
 use crate::diagnose::bootstrap::interval;
 use crate::diagnose::findings::Errors;
+use crate::identify::seed::APART;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -1,6 +1,7 @@
 //! Noise of a table without a model: the scatter of its columns about a smooth curve.
 
 use super::levels::Levels;
+use crate::identify::seed::APART;
 
 /// Relative standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,9 +48,6 @@ const ASSUMED: Scatter = Scatter {
     stiffness: 0.002,
     count: 0,
 };
-
-/// Levels closer than this, in the logarithm of the amplitude, are repeats of one.
-pub(super) const APART: f64 = 0.02;
 
 /// The two nearest levels on one side, apart from each other and from level `i`.
 fn nearest(x: &[f64], i: usize, side: impl Iterator<Item = usize>) -> Vec<usize> {

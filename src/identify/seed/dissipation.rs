@@ -1,6 +1,6 @@
 //! χ and ϑ from the growth of the loss with load: log D over log F_0 (Eq. 47).
 
-use super::level::Level;
+use super::level::{APART, Level};
 use super::line::{line, slope_drift};
 use crate::identify::interval::{Boundary, Estimated};
 
@@ -62,14 +62,13 @@ const LEAST_ERROR: f64 = 1e-3;
 ///
 /// Checked in tests/identification.rs against planted exponents and the bolted beam's table.
 pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
-    let usable: Vec<&Level> = levels
+    let mut usable: Vec<(f64, &Level)> = levels
         .iter()
-        .filter(|l| l.dissipation > 0.0 && amplitude(l, over).is_some_and(|a| a > 0.0))
+        .filter(|l| l.dissipation > 0.0)
+        .filter_map(|l| Some((amplitude(l, over).filter(|a| *a > 0.0)?.ln(), l)))
         .collect();
-    let x: Vec<f64> = usable
-        .iter()
-        .filter_map(|l| amplitude(l, over).map(f64::ln))
-        .collect();
+    usable.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (x, usable): (Vec<f64>, Vec<&Level>) = usable.into_iter().unzip();
     let y: Vec<f64> = usable.iter().map(|l| l.dissipation.ln()).collect();
     let error: Vec<f64> = usable
         .iter()
@@ -78,7 +77,9 @@ pub fn dissipation_law(levels: &[Level], over: Over) -> Option<DissipationLaw> {
     let readings = usable.iter().all(|l| l.relative_error.is_none());
     let weight: Vec<f64> = error.iter().map(|e| e.powi(-2)).collect();
     let count = usable.len();
+    // Levels of one amplitude at two frequencies have no slope between them.
     let local_slopes: Vec<LocalSlope> = (1..count)
+        .filter(|&i| x[i] - x[i - 1] > APART)
         .map(|i| LocalSlope {
             amplitude: (0.5 * (x[i] + x[i - 1])).exp(),
             slope: (y[i] - y[i - 1]) / (x[i] - x[i - 1]),

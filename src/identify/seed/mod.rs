@@ -15,7 +15,7 @@ mod stiffness;
 pub use cycle_point::{CyclePoint, cycle_points};
 pub use dissipation::{DissipationLaw, LocalSlope, Over, dissipation_law};
 pub use findings::frequency_finding;
-pub use level::{Level, levels, table_levels};
+pub use level::{APART, Level, levels, table_levels};
 pub use monotonic::{Matching, Monotonic, Source, monotonic};
 pub use residual_slip::{ResidualSlip, residual_slip};
 pub use stiffness::{Stiffness, series_stiffness};
