@@ -86,6 +86,10 @@ fn one_test_written_in_many_ways_is_one_record() {
             "\"time [s]\",\"force [N]\",\"displacement [mm]\"\n\"0\",\"1000\",\"1,5\"\n\"0,5\",\"-2500\",\"-2\"\n\"1\",\"0\",\"0\"\n",
         ),
         (
+            "spaced_quotes.csv",
+            "\"time [s]\", \"force [N]\", \"displacement [mm]\"\n0, \"1000\", 1.5\n0.5, \"-2500\", -2\n1, \"0\", 0\n",
+        ),
+        (
             "unit_row.csv",
             "Time,Axial Force,Extension\ns,(kN),[mm]\n0,1,1.5\n.5,-2.5,-2\n1,0,0\n",
         ),

@@ -245,7 +245,7 @@ fn declared_by_options(text: &str, separator: u8, row: &Row, above: &Above) -> H
 
 fn cells_of(row: &Row) -> Vec<String> {
     let cells = row.cells.iter();
-    cells.map(|cell| cell.trim().to_string()).collect()
+    cells.map(|cell| number::bare(cell).to_string()).collect()
 }
 
 /// The next row that holds anything.
@@ -323,7 +323,7 @@ fn commented_header(
     let above = above.trim_start_matches('#').trim();
     let names: Vec<String> = above
         .split(char::from(separator))
-        .map(|cell| cell.trim().to_string())
+        .map(|cell| number::bare(cell).to_string())
         .collect();
     let is_named = |cell: &String| {
         let (name, unit) = quantity::name_and_unit(cell);

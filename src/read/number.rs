@@ -30,7 +30,7 @@ const OTHER: &str = "; correct the cell, or cut the record there";
 
 /// The number in a cell; `mark` remembers the file's decimal mark.
 pub fn parse(cell: &str, mark: &mut Mark) -> Result<f64, Fault> {
-    let cell = cell.trim();
+    let cell = bare(cell);
     let (number, shown) = match cell.parse::<f64>() {
         Ok(number) => (number, cell.contains('.').then_some(Mark::Point)),
         Err(_) if cell.is_empty() => return Err(Fault::Empty),
@@ -47,6 +47,13 @@ pub fn parse(cell: &str, mark: &mut Mark) -> Result<f64, Fault> {
     } else {
         Err(Fault::NotFinite)
     }
+}
+
+/// A cell without the space around it, nor the quotes that a space before them has kept.
+pub fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let quoted = cell.strip_prefix('"').and_then(|c| c.strip_suffix('"'));
+    quoted.map_or(cell, str::trim)
 }
 
 /// True for a cell that reads as a number, finite or not.

@@ -1,5 +1,6 @@
 //! What a column can hold, and the names under which rigs write it.
 
+use super::number;
 use super::unit::{self, Dimension};
 
 /// What a column holds.
@@ -181,7 +182,7 @@ pub fn plain(name: &str) -> String {
 
 /// A header cell taken apart: `Force (kN)` is `Force` and `kN`.
 pub fn name_and_unit(cell: &str) -> (&str, Option<&str>) {
-    let cell = cell.trim();
+    let cell = number::bare(cell);
     for (open, close) in [('[', ']'), ('(', ')'), ('{', '}')] {
         if let (Some(start), true) = (cell.find(open), cell.ends_with(close)) {
             let unit = cell[start + 1..cell.len() - 1].trim();
