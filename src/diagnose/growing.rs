@@ -263,6 +263,7 @@ mod tests {
     use crate::causes::find;
     use crate::diagnose::prepare::prepare;
     use crate::diagnose::search::alone;
+    use crate::diagnose::search::tests::dashpot;
     use crate::identify::beginning::Beginning;
     use crate::identify::{Form, baseline, refit};
     use crate::joint::effect::Acting;
@@ -312,5 +313,23 @@ mod tests {
         assert!(grown.misfit < 0.5 * two.misfit, "{grown:?}");
         assert_eq!(on(2.0 * grown.misfit).effects, grown.effects);
         assert_eq!(on(0.6 * grown.misfit), two);
+    }
+    /// Of a variance that sixteen cycles told, a set leaves no more than that may be wrong by, and then twice as much.
+    #[test]
+    fn what_the_noise_may_be_told_wrong_by_asks_no_larger_share_of_a_cause() {
+        let bench = dashpot(20261127);
+        assert!(bench.noise_is_repeated());
+        let rows = bench.train.rows() as f64;
+        let leaving = |misfit: f64| Fit {
+            misfit,
+            ..baseline(&bench.train)
+        };
+        let scatter = places::scatter(rows);
+        let doubt = -places::beyond_doubt(&bench, &leaving(rows));
+        assert!(doubt > 1.2 * scatter, "{doubt} {scatter}");
+        let least = 1e6;
+        let asked = |misfit: f64| share(&bench, &leaving(misfit), least);
+        assert_eq!(asked(rows + 0.5 * (scatter + doubt)), COMPLETE * least);
+        assert!(asked(rows + 2.0 * doubt) > 1.1 * COMPLETE * least);
     }
 }
