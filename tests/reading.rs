@@ -106,6 +106,10 @@ fn one_test_written_in_many_ways_is_one_record() {
             "time [µs],force [mN],displacement [μm]\n0,1e6,1500\n500000,-2.5e6,-2000\n1e6,0,0\n",
         ),
         (
+            "mega.csv",
+            "time [MS],force [MN],displacement [M]\n0,0.001,0.0015\n500,-0.0025,-0.002\n1000,0,0\n",
+        ),
+        (
             "Prüfstand 7 – große Last.csv",
             "t [s],F [N],u [mm]\n0,1000,1.5\n0.5,-2500,-2\n1,0,0\n",
         ),
@@ -249,6 +253,19 @@ fn foreign_files_are_read_by_their_columns() {
     assert_is_the_same_test(&history_by("preamble.csv", preamble, &by_number));
     let by_name = options("force=LOAD,displacement=Ext,time=sec", units);
     assert_is_the_same_test(&history_by("preamble.csv", preamble, &by_name));
+    // Numbers in a preamble are none of the chosen ones, by number or by name.
+    let rated = format!("Test,7\nSample rate;1000\n{preamble}").replace("Test,7", "Test;7");
+    for by in [&by_number, &by_name] {
+        assert_is_the_same_test(&history_by("rated.csv", &rated, by));
+    }
+    // A fault in the first row is one, and no preamble.
+    let faulty = written("faulty.csv", b"Load,Ext\nx,1\n2,3\n");
+    let error = read::file(
+        &faulty,
+        &options("force=1,displacement=2", "force=N,displacement=m"),
+    );
+    let error = error.expect_err("a bad first row").to_string();
+    assert!(error.contains("line 2, column 1 `Load`: `x`"), "{error}");
     // units of the header serve where the options give none
     let headed = "clock [ms],c1 [mm],c2 [kN]\n0,1.5,1\n500,-2,-2.5\n1000,0,0\n";
     let no_units = options("force=3,displacement=2,time=1", "");
@@ -256,6 +273,29 @@ fn foreign_files_are_read_by_their_columns() {
     // units alone, for a header without them
     let unitless = "t,F,u\n0,1,1.5\n.5,-2.5,-2\n1,0,0\n";
     assert_is_the_same_test(&history_by("unitless.csv", unitless, &options("", units)));
+}
+
+/// Temperature and acceleration are read and not used: a record is as good without them.
+#[test]
+fn a_column_that_nothing_uses_refuses_no_record() {
+    let content = "time [s],force [N],displacement [mm],temperature [degC],load [%]\n0,1000,1.5,20,1\n0.5,-2500,-2,,2\n1,0,0,21,3\n";
+    let path = written("warm.csv", content.as_bytes());
+    let loaded = read::file(&path, &Options::default()).expect("a good record");
+    let said = loaded.notes.join("; ");
+    assert!(
+        said.contains("left out: ") && said.contains("line 3"),
+        "{said}"
+    );
+    assert_is_the_same_test(&history("warm.csv", content));
+    assert_eq!(history("warm.csv", content).temperature, None);
+    // What is known and has no place here is not used either.
+    let table = "force amplitude [N],dissipation [J],displacement [m]\n1,1e-6,1\n2,8e-6,2\n";
+    let loaded = read::file(&written("stray.csv", table.as_bytes()), &Options::default());
+    let notes = loaded.expect("a good table").notes.join("; ");
+    assert!(
+        notes.contains("columns not used: `displacement [m]`"),
+        "{notes}"
+    );
 }
 
 #[test]

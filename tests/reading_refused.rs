@@ -77,6 +77,12 @@ fn a_column_past_the_last_or_without_numbers_is_named() {
         "{text}"
     );
     // What is chosen for one quantity is not found for another by its header.
+    let called = "Load [kN],Load [%],Disp [mm]\n1,2,3\n";
+    let text = by("called.csv", called, "force=Load");
+    assert!(
+        text.contains("column 2 `Load [%]`: column 1 `Load [kN]`"),
+        "{text}"
+    );
     let taken = by("taken.csv", "t [s],F [N],u [m]\n0,1,2\n", "displacement=2");
     assert!(taken.contains("no column force among"), "{taken}");
 }
@@ -174,7 +180,12 @@ fn a_refusal_names_line_column_and_value() {
             "twice",
             &["line 4", "column 1", "time 0 s"],
         ),
-        ("", "none", &["line 2", "no row"]),
+        (
+            "0,1,2\n1,2,\"\n2,3,\"\n",
+            "torn",
+            &["line 5", "column 3", "close the quote"],
+        ),
+        ("", "none", &["line 2", "no row", "add the rows"]),
     ];
     for (rows, name, words) in cases {
         let error = refused(&format!("refused {name}.csv"), format!("{header}{rows}")).to_string();
@@ -313,6 +324,17 @@ fn a_refused_header_is_looked_for_where_it_stands() {
             "time,force,disp\ns,,mm\n0,1,2\n",
             "unit nowhere",
             "line 1, column 2 `force`: no unit",
+        ),
+        // The way out is one word of a shell.
+        (
+            "force amplitude,dissipation [J]\n1,2\n",
+            "two words",
+            "--units force_amplitude=N",
+        ),
+        (
+            "F [N],u [Nm]\n1,2\n",
+            "energy",
+            "line 1, column 2 `u [Nm]`: unit `Nm` measures energy",
         ),
     ];
     for (content, name, words) in cases {

@@ -55,7 +55,7 @@ pub enum ReadError {
         file: PathBuf,
     },
     /// A header without rows.
-    #[error("{}, line {line}: a header and no row of numbers below it", .file.display())]
+    #[error("{}, line {line}: a header and no row of numbers below it: add the rows, or name the file that holds them", .file.display())]
     NoRows {
         /// The file.
         file: PathBuf,
@@ -135,7 +135,7 @@ pub enum ReadError {
     },
     /// Two columns for one quantity.
     #[error(
-        "{second}: column {first} `{first_name}` holds {quantity} too; name the one to use with --columns, such as {quantity}={first}"
+        "{second}: column {first} `{first_name}` holds {quantity} too; name the one to use with --columns, such as {}={first}", .quantity.option()
     )]
     Twice {
         /// The later column.
@@ -178,7 +178,7 @@ pub enum ReadError {
     },
     /// A quantity without unit.
     #[error(
-        "{spot}: no unit; write it in the header as `{quantity} [{example}]` or give --units {quantity}={example}"
+        "{spot}: no unit; write it in the header as `{quantity} [{example}]` or give --units {}={example}", .quantity.option()
     )]
     MissingUnit {
         /// The header cell.

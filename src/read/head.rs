@@ -1,7 +1,8 @@
 //! Where the table starts: separator, header, row of units, first row of numbers.
 
+use super::chosen::{Chosen, Held};
 use super::error::ReadError;
-use super::options::{Choice, Options};
+use super::options::Options;
 use super::quantity::{self, Quantity};
 use super::source::Source;
 use super::{number, separator, unit};
@@ -109,27 +110,31 @@ pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<
     let mut rows = reader(text, separator);
     let mut above = Above::default();
     let mut numbers: Option<(Row, Above)> = None; // the first row of numbers, and those above it
+    let mut begun: Option<(Row, Above, usize)> = None; // the same, of some of the numbers that are looked for
+    let mut chosen = Chosen::of(options);
     let mut skipped = 0;
     while let Some(row) = next(&mut rows, source)? {
         if options.columns.is_empty() {
             let below = next(&mut rows, source)?;
             return declared(source, separator, &row, below.as_ref(), needed);
         }
-        if holds_chosen_numbers(&row.cells, options) {
-            let mut head = declared_by_options(text, separator, &row, &above);
-            let expected = 1 + usize::from(!head.units.is_empty()); // header, row of units
-            if skipped > expected {
-                head.notes.push(format!(
-                    "{skipped} rows above the numbers are no numbers: skipped"
-                ));
+        match chosen.held_by(&row.cells) {
+            Held::None => begun = None,
+            held => {
+                let first = begun.get_or_insert_with(|| (row.clone(), above.clone(), skipped));
+                if held == Held::All {
+                    return Ok(behind((text, separator), first));
+                }
             }
-            return Ok(head);
         }
         skipped += 1;
         if numbers.is_none() && is_numbers(&row.cells) {
             numbers = Some((row.clone(), above.clone()));
         }
         above.push(row);
+    }
+    if let Some(first) = begun {
+        return Ok(behind((text, separator), &first));
     }
     let file = source.file.clone();
     match (numbers, above.last) {
@@ -138,7 +143,7 @@ pub fn find(source: &Source, options: &Options, needed: &'static str) -> Result<
         (None, Some(last)) => Err(ReadError::NoChosenNumbers {
             file,
             line: line_at(text, last.end),
-            chosen: chosen(options),
+            chosen: in_words(options),
         }),
         (None, None) if text.lines().any(|line| line.trim_start().starts_with('#')) => {
             Err(ReadError::CommentsOnly { file })
@@ -292,15 +297,20 @@ fn is_units(row: &StringRecord) -> bool {
     })
 }
 
-fn holds_chosen_numbers(row: &StringRecord, options: &Options) -> bool {
-    options.columns.iter().any(|(_, choice)| match choice {
-        Choice::Number(number) => row.get(number - 1).is_some_and(number::is_one),
-        Choice::Name(_) => row.iter().any(number::is_one),
-    })
+/// The head of a file whose first row of numbers that is, with so many rows above it.
+fn behind((text, separator): (&str, u8), (row, above, skipped): &(Row, Above, usize)) -> Head {
+    let mut head = declared_by_options(text, separator, row, above);
+    let expected = 1 + usize::from(!head.units.is_empty()); // header, row of units
+    if *skipped > expected {
+        head.notes.push(format!(
+            "{skipped} rows above the numbers are no numbers: skipped"
+        ));
+    }
+    head
 }
 
 /// The choices of `--columns` in words.
-fn chosen(options: &Options) -> String {
+fn in_words(options: &Options) -> String {
     let entries = options.columns.iter();
     entries
         .map(|(quantity, choice)| format!("{quantity} in column {choice}"))

@@ -95,7 +95,7 @@ impl<'a> Layout<'a> {
         if let Some(missing) = required.iter().find(|quantity| !self.has(**quantity)) {
             return Err(self.missing(missing.name()));
         }
-        let mut columns = Vec::new();
+        let (mut columns, mut left_out) = (Vec::<Column>::new(), Vec::new());
         for (quantity, index) in &self.found {
             // Who chooses columns and leaves time out has said how much of it is needed.
             let asked = self.options.columns.is_empty();
@@ -120,7 +120,10 @@ impl<'a> Layout<'a> {
                     });
                 }
                 Err(error) if is_needed => return Err(error),
-                Err(error) => notes.push(format!("left out: {error}")),
+                Err(error) => {
+                    notes.push(format!("left out: {error}"));
+                    left_out.push(*index);
+                }
             }
         }
         let named = self
@@ -130,7 +133,8 @@ impl<'a> Layout<'a> {
             .enumerate()
             .filter(|(_, name)| !name.is_empty());
         let ignored: Vec<String> = named
-            .filter(|(index, _)| !self.found.iter().any(|(_, at)| at == index))
+            .filter(|(index, _)| !columns.iter().any(|c| c.index == *index))
+            .filter(|(index, _)| !left_out.contains(index))
             .map(|(_, name)| format!("`{name}`"))
             .collect();
         if !ignored.is_empty() {
@@ -204,10 +208,7 @@ impl<'a> Layout<'a> {
     fn chosen(&self, quantity: Quantity, choice: &Choice) -> Result<usize, ReadError> {
         let index = match choice {
             Choice::Number(number) => Some(number - 1).filter(|index| *index < self.head.width),
-            Choice::Name(wanted) => self.head.names.iter().position(|cell| {
-                let same = |text: &str| quantity::plain(text) == quantity::plain(wanted);
-                same(cell) || same(quantity::name_and_unit(cell).0)
-            }),
+            Choice::Name(wanted) => return self.called(quantity, wanted),
         };
         index.ok_or_else(|| ReadError::NoSuchColumn {
             file: self.source.file.clone(),
@@ -216,6 +217,30 @@ impl<'a> Layout<'a> {
             choice: choice.to_string(),
             found: self.all_names(),
         })
+    }
+
+    /// The column whose whole header that is, or else the one that is called so, its unit left out.
+    fn called(&self, quantity: Quantity, wanted: &str) -> Result<usize, ReadError> {
+        let same = |text: &str| quantity::plain(text) == quantity::plain(wanted);
+        let cells = || self.head.names.iter().enumerate();
+        let whole = cells().find(|(_, cell)| same(cell));
+        let mut called = cells().filter(|(_, cell)| same(quantity::name_and_unit(cell).0));
+        match (whole, called.next(), called.next()) {
+            (Some((index, _)), ..) | (None, Some((index, _)), None) => Ok(index),
+            (None, Some((first, _)), Some((second, _))) => Err(ReadError::Twice {
+                second: self.spot(second),
+                first: first + 1,
+                first_name: self.name(first),
+                quantity,
+            }),
+            (None, None, _) => Err(ReadError::NoSuchColumn {
+                file: self.source.file.clone(),
+                line: self.head.line,
+                quantity,
+                choice: Choice::Name(wanted.to_string()).to_string(),
+                found: self.all_names(),
+            }),
+        }
     }
 
     fn unit_in_header(&self, index: usize) -> Option<&str> {

@@ -4,6 +4,7 @@
 //! bytes ─ source ─ text ─ head ─ header, separator ─ layout ─ columns, units ─ numbers ─ SI values
 //! ```
 
+mod chosen;
 mod error;
 mod head;
 mod layout;

@@ -35,7 +35,7 @@ impl Numbers {
 /// Reads every row; says in `notes` what was assumed.
 ///
 /// # Errors
-/// [`ReadError::Ragged`], [`ReadError::EmptyCell`], [`ReadError::NotANumber`],
+/// [`ReadError::Unreadable`], [`ReadError::Ragged`], [`ReadError::EmptyCell`], [`ReadError::NotANumber`],
 /// [`ReadError::NotFinite`], [`ReadError::Beyond`], [`ReadError::Vanishing`], [`ReadError::Negative`],
 /// [`ReadError::TimeRunsBack`], [`ReadError::TimeRepeats`], [`ReadError::NoRows`], each at its line.
 pub fn read(
@@ -55,6 +55,7 @@ pub fn read(
     let mut lines = Vec::new();
     let mut mark = Mark::Unseen;
     let mut blank_at: Option<usize> = None;
+    let mut left_out = Vec::new();
     let mut rows = head::reader(text, head.separator);
     let mut row = csv::StringRecord::new();
     loop {
@@ -90,11 +91,23 @@ pub fn read(
             let spot = Place { source, line }.spot(&columns[0]);
             return Err(ReadError::EmptyCell { spot });
         }
+        place.check_quotes(&row)?;
         place.check_width(&row, head)?;
         let channels = columns.iter().zip(&mut values).zip(&mut peaks);
         for ((column, values), peak) in channels {
+            if left_out.contains(&column.index) {
+                continue;
+            }
             let cell = row.get(column.index).unwrap_or_default();
-            let value = place.number(cell, column, &mut mark)?;
+            let value = place.number(cell, column, &mut mark);
+            let value = match value {
+                Err(error) if column.quantity.is_spare() => {
+                    notes.push(format!("left out: {error}"));
+                    left_out.push(column.index);
+                    continue;
+                }
+                value => value?,
+            };
             place.check(value, cell, column, values.last().copied())?;
             if value.abs() > peak.0 {
                 *peak = Peak(value.abs(), line, number::shown(cell));
@@ -109,8 +122,9 @@ pub fn read(
             line: head.line,
         });
     }
+    let kept = |column: &Column| !left_out.contains(&column.index);
     for (column, Peak(size, line, value)) in columns.iter().zip(peaks) {
-        if column.quantity != Quantity::Time && size > 0.0 && size < SMALLEST {
+        if kept(column) && column.quantity != Quantity::Time && size > 0.0 && size < SMALLEST {
             let spot = Place { source, line }.spot(column);
             return Err(ReadError::Vanishing { spot, value });
         }
@@ -120,8 +134,9 @@ pub fn read(
     }
     let columns = columns
         .iter()
-        .map(|column| column.quantity)
         .zip(values)
+        .filter(|(column, _)| kept(column))
+        .map(|(column, values)| (column.quantity, values))
         .collect();
     Ok(Numbers { columns, lines })
 }
@@ -139,6 +154,22 @@ impl Place<'_> {
             line: self.line,
             column: column.index + 1,
             name: column.name.clone(),
+        }
+    }
+
+    /// A quote that nothing closes takes the rows below it into its cell.
+    fn check_quotes(&self, row: &csv::StringRecord) -> Result<(), ReadError> {
+        let torn = row.iter().position(|cell| cell.contains(['\n', '\r']));
+        match torn {
+            None => Ok(()),
+            Some(column) => Err(ReadError::Unreadable {
+                file: self.source.file.clone(),
+                reason: format!(
+                    "up to line {}, column {}: a quote \" opens a cell that goes on over several rows; close the quote, or remove it",
+                    self.line,
+                    column + 1
+                ),
+            }),
         }
     }
 

@@ -117,6 +117,16 @@ impl Quantity {
         self.names()[0]
     }
 
+    /// True for what is read and not used: a record is as good without.
+    pub fn is_spare(self) -> bool {
+        matches!(self, Temperature | Acceleration)
+    }
+
+    /// Its name as an option of the command line takes it, without spaces.
+    pub fn option(self) -> String {
+        self.name().replace(' ', "_")
+    }
+
     /// What its units measure.
     pub fn dimension(self) -> Dimension {
         match self {

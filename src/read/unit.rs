@@ -131,6 +131,7 @@ static UNITS: &[Unit] = &[
     unit("Hz", Frequency, 1.0, 1.0),
     unit("kHz", Frequency, 1e3, 1.0),
     unit("mHz", Frequency, 1.0, 1e3),
+    unit("MHz", Frequency, 1e6, 1.0),
     unit("1/s", Frequency, 1.0, 1.0),
     unit("J", Energy, 1.0, 1.0),
     unit("mJ", Energy, 1.0, 1e3),
@@ -174,12 +175,15 @@ static UNITS: &[Unit] = &[
 const FAHRENHEIT: &str = "degrees Fahrenheit are converted to degrees Celsius";
 
 /// The unit of that spelling and dimension. Capitals matter where they change the meaning (mN,
-/// MN) and are forgiven where they do not (KN, LBF).
+/// MN, or Nm of energy for nm) and are forgiven where they do not (KN, LBF).
 pub fn find(written: &str, dimension: Dimension) -> Option<&'static Unit> {
     let plain = plain(written);
     let known = || UNITS.iter().filter(|unit| unit.dimension == dimension);
     if let Some(unit) = known().find(|unit| unit.spelling == plain) {
         return Some(unit);
+    }
+    if UNITS.iter().any(|unit| unit.spelling == plain) {
+        return None;
     }
     let mut forgiven = known().filter(|unit| unit.spelling.eq_ignore_ascii_case(&plain));
     let first = forgiven.next()?;
@@ -222,5 +226,23 @@ fn plain(written: &str) -> String {
         plain.replace("/s/s", "/s2")
     } else {
         plain
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn capitals_are_forgiven_only_where_they_say_nothing() {
+        let factor =
+            |written: &str, dimension: Dimension| find(written, dimension).map(|u| u.si(1.0));
+        assert_eq!(factor("MHz", Frequency), Some(1e6));
+        assert_eq!(factor("mHz", Frequency), Some(1e-3));
+        assert_eq!(factor("MHZ", Frequency), None);
+        assert_eq!(factor("NM", Length), Some(1e-9));
+        assert_eq!(factor("Nm", Length), None);
+        assert_eq!(factor("KN", Force), Some(1e3));
+        assert_eq!(factor("LBF", Force), factor("lbf", Force));
     }
 }

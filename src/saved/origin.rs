@@ -87,7 +87,7 @@ fn bounds(entry: &Entry) -> Result<(f64, f64), SavedError> {
     let [low, high] = entry
         .items()?
         .try_into()
-        .map_err(|_| entry.unusable("two entry"))?;
+        .map_err(|_| entry.unusable("two bounds [lower, upper], null where open"))?;
     let low = if low.value.is_null() {
         f64::NEG_INFINITY
     } else {
