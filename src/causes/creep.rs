@@ -15,7 +15,7 @@ static PARAMETERS: [Parameter; 4] = [
         symbol: "J",
         unit: "m/N",
         lower: 0.0,
-        upper: 1.0,
+        upper: 1e12,
         vanishes_at: Some(0.0),
         neutral: None,
         meaning: "displacement per force that creep adds in the end",

@@ -14,7 +14,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     symbol: "c_q",
     unit: "N.s2/m2",
     lower: 0.0,
-    upper: 1e18,
+    upper: 1e60,
     vanishes_at: Some(0.0),
     neutral: None,
     meaning: "force per square of the rate of the total displacement",

@@ -16,7 +16,7 @@ static PARAMETERS: [Parameter; 8] = [
         symbol: "kappa",
         unit: "1/m",
         lower: 0.0,
-        upper: 1e12,
+        upper: 1e36,
         vanishes_at: Some(0.0),
         neutral: Some(0.0),
         meaning: "one over the displacement from the level to where nothing more is read (onset 2); large for a clip",
@@ -26,7 +26,7 @@ static PARAMETERS: [Parameter; 8] = [
         symbol: "L_+",
         unit: "m",
         lower: 0.0,
-        upper: 1.0,
+        upper: 1e12,
         vanishes_at: None,
         neutral: Some(0.0),
         meaning: "displacement towards positive U from which the reading falls behind",
@@ -36,7 +36,7 @@ static PARAMETERS: [Parameter; 8] = [
         symbol: "L_-",
         unit: "m",
         lower: 0.0,
-        upper: 1.0,
+        upper: 1e12,
         vanishes_at: None,
         neutral: Some(0.0),
         meaning: "displacement towards negative U from which the reading falls behind",
@@ -112,6 +112,8 @@ impl Knee {
         let level = 0.5 * (positive + negative);
         let end = match onset == 2.0 {
             true => 1.0 / sharpness,
+            // Nothing is read of a channel that no level lets through.
+            false if level == 0.0 => 0.0,
             false => level * power(sharpness * level, 1.0 / (1.0 - onset)),
         };
         Knee {

@@ -26,7 +26,7 @@ static PARAMETERS: [Parameter; 3] = [
         symbol: "d",
         unit: "m",
         lower: 0.0,
-        upper: 1.0,
+        upper: 1e12,
         vanishes_at: None,
         neutral: Some(0.0),
         meaning: "slip after a reversal over which all contacts lose the excess together; 0: each at its own breakaway",

@@ -12,7 +12,7 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     symbol: "c",
     unit: "N.s/m",
     lower: 0.0,
-    upper: 1e12,
+    upper: 1e36,
     vanishes_at: Some(0.0),
     neutral: None,
     meaning: "force per rate of the total displacement",

@@ -11,7 +11,7 @@ pub(super) const ENERGY: Parameter = Parameter {
     name: "energy",
     symbol: "E_0",
     unit: "J",
-    lower: 1e-15,
+    lower: 1e-45,
     upper: ENDLESS,
     vanishes_at: None,
     neutral: Some(ENDLESS),

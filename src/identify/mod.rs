@@ -50,4 +50,5 @@ pub use problem::{Prediction, Problem};
 pub use scatter::scatter;
 pub use score::{Score, scores};
 pub use seed::{Seed, SeedError};
+pub use slopes::size_of;
 pub use smoothing::smoothed;

@@ -32,11 +32,7 @@ pub(super) fn slopes(
                 true => WIDE,
                 false => 1e-4,
             };
-            let mut unit = share
-                * match value.abs() {
-                    0.0 => beside_zero(acting, p),
-                    size => size,
-                };
+            let mut unit = share * size_of(acting, p);
             if value + unit > parameter.upper {
                 unit = -unit;
             }
@@ -56,9 +52,12 @@ pub(super) fn slopes(
     slopes
 }
 
-/// A size for a parameter that stands at zero: the largest of the law's others in the same unit; where there is none, a
-/// millionth of its range or of one.
-fn beside_zero(acting: &Acting, parameter: usize) -> f64 {
+/// The size of a value, of which a difference takes a share; of one that stands at zero the largest of the law's others in
+/// the same unit, or, where there is none, a millionth of its range or of one.
+pub fn size_of(acting: &Acting, parameter: usize) -> f64 {
+    if acting.values[parameter] != 0.0 {
+        return acting.values[parameter].abs();
+    }
     let all = acting.effect.parameters();
     let of_unit = all.iter().zip(&acting.values);
     let largest = of_unit
@@ -203,7 +202,7 @@ mod tests {
                 effect: &Slow,
                 values: values.to_vec(),
             };
-            [0, 1, 2].map(|p| beside_zero(&law, p))
+            [0, 1, 2].map(|p| size_of(&law, p))
         };
         assert_eq!(of([-300.0, 2.0, 0.0]), [300.0, 2.0, 300.0]);
         // Nothing of its unit: a millionth of its range, at most of one.

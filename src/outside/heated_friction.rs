@@ -15,7 +15,7 @@ static PARAMETERS: [Parameter; 2] = [
         symbol: "h",
         unit: "1/J",
         lower: 0.0,
-        upper: 1e15,
+        upper: 1e60,
         vanishes_at: Some(0.0),
         neutral: None,
         meaning: "relative fall of the break-free forces per energy that has become heat and is still there",

@@ -9,7 +9,7 @@ use crate::identify::nonnegative::Normal;
 use crate::identify::rows::Rows;
 use crate::identify::summed::Summed;
 use crate::identify::weighing::Weighing;
-use crate::identify::{Prediction, Problem};
+use crate::identify::{Prediction, Problem, size_of};
 use crate::joint::effect::Acting;
 
 /// One cause with one set of values.
@@ -62,8 +62,7 @@ impl Shape {
         let parameter = &self.acting.effect.parameters()[p];
         let mut acting = self.acting.clone();
         let value = acting.values[p];
-        let least = 1e-6 * (parameter.upper - parameter.lower).min(1.0);
-        let mut step = 0.1 * value.abs().max(least);
+        let mut step = 0.1 * size_of(&acting, p);
         if value + step > parameter.upper {
             step = -step;
         }
