@@ -184,6 +184,44 @@ fn repeats_and_too_few_levels_are_admitted_or_refused() {
     };
     let found = diagnosed(&doubled).findings;
     assert!(found.causes.is_empty(), "{}", found.summary);
+    // Nor is there a slope between repeats.
+    let slopes = |table: &AmplitudeTable| {
+        let notes = diagnosed(table).findings.notes;
+        let said = notes
+            .iter()
+            .find(|note| note.starts_with("Slope of log loss"));
+        let numbers = said.expect("slopes").split([' ', ':', ',']);
+        let found: Vec<f64> = numbers.filter_map(|n| n.parse().ok()).collect();
+        (found[0], found[1])
+    };
+    let noisy = AmplitudeTable {
+        dissipation: doubled
+            .dissipation
+            .iter()
+            .enumerate()
+            .map(|(i, loss)| loss * [1.0, 1.02][i % 2])
+            .collect(),
+        ..doubled.clone()
+    };
+    let (one, other) = (slopes(&whole), slopes(&noisy));
+    assert!((one.0 - other.0).abs() < 0.2, "{one:?} {other:?}");
+    assert!((one.1 - other.1).abs() < 0.2, "{one:?} {other:?}");
+    // One level read six times is one level; without a loss it is none.
+    let refusal = |table: AmplitudeTable| {
+        let refused = diagnose_tables(&[table], &Known::default(), |_| {});
+        refused.expect_err("too few levels").to_string()
+    };
+    let level = |i: usize| 1.0 + 2e-4 * i as f64;
+    let one_level = AmplitudeTable {
+        force_amplitude: (0..6).map(|i| 100.0 * level(i)).collect(),
+        displacement_amplitude: Some((0..6).map(|i| 1e-5 * level(i)).collect()),
+        dissipation: (0..6).map(|i| 1e-5 * level(i)).collect(),
+        ..AmplitudeTable::default()
+    };
+    assert!(refusal(one_level).contains("the table has 1 level(s)"));
+    let mut idle = whole.clone();
+    idle.dissipation[4..].fill(0.0);
+    assert!(refusal(idle).contains("the table has 4 level(s)"));
     let short = AmplitudeTable {
         name: "short".into(),
         force_amplitude: vec![1.0, 2.0],

@@ -19,7 +19,7 @@ pub struct Known {
 /// in deep slip passes through this range on its way to 4/π, but not with every level.
 const QUARTER: std::ops::RangeInclusive<f64> = 0.85..=1.15;
 
-/// True where `D ≈ π F X` at every level: the force is then the exciter's at phase resonance, which
+/// True where `D ≈ π F X` at every level that has all three: the force is then the exciter's at phase resonance, which
 /// balances the loss alone, and not the joint's own.
 pub fn at_resonance(table: &AmplitudeTable) -> bool {
     let Some(displacement) = &table.displacement_amplitude else {
@@ -28,6 +28,9 @@ pub fn at_resonance(table: &AmplitudeTable) -> bool {
     let levels = table.force_amplitude.iter().zip(displacement);
     let sines: Vec<f64> = levels
         .zip(&table.dissipation)
+        .filter(|((force, displacement), loss)| {
+            **force > 0.0 && **displacement > 0.0 && **loss > 0.0
+        })
         .map(|((force, displacement), loss)| loss / (PI * force * displacement))
         .collect();
     !sines.is_empty() && sines.iter().all(|sine| QUARTER.contains(sine))
@@ -43,8 +46,8 @@ pub fn own_force(table: &AmplitudeTable, known: &Known) -> Option<AmplitudeTable
         return None;
     }
     let displacement = table.displacement_amplitude.as_ref()?;
-    let smallest =
-        (0..displacement.len()).min_by(|&a, &b| displacement[a].total_cmp(&displacement[b]))?;
+    let moves = (0..displacement.len()).filter(|&i| displacement[i] > 0.0);
+    let smallest = moves.min_by(|&a, &b| displacement[a].total_cmp(&displacement[b]))?;
     let square = |hertz: f64| (TAU * hertz).powi(2);
     let force: Vec<f64> = match (&table.frequency, known) {
         (Some(hertz), known) => {
@@ -123,6 +126,21 @@ mod tests {
     fn the_modal_mass_gives_the_joint_its_own_force() {
         let table = resonant();
         assert!(at_resonance(&table));
+        // At rest nothing is a quarter of a cycle apart.
+        let mut rested = table.clone();
+        rested.force_amplitude.push(0.0);
+        rested.dissipation.push(0.0);
+        let rests = |column: &mut Option<Vec<f64>>, value| column.as_mut().map(|c| c.push(value));
+        rests(&mut rested.displacement_amplitude, 0.0);
+        rests(&mut rested.frequency, 200.0);
+        assert!(at_resonance(&rested));
+        let known = |stiffness: f64| Known {
+            stiffness: Some(stiffness),
+            ..Known::default()
+        };
+        let own = |table: &AmplitudeTable| own_force(table, &known(1e5)).map(|t| t.force_amplitude);
+        let both = own(&table).zip(own(&rested));
+        assert!(both.is_some_and(|(own, rested)| own == rested[..3]));
         assert_eq!(own_force(&table, &Known::default()), None);
         let known = Known {
             modal_mass: Some(2.0),

@@ -1,5 +1,6 @@
 //! The levels of an amplitude table as a diagnosis needs them: amplitude, loss, secant stiffness.
 
+use crate::identify::seed::APART;
 use crate::identify::table::{Known, at_resonance, own_force};
 use crate::record::AmplitudeTable;
 use std::f64::consts::TAU;
@@ -89,14 +90,29 @@ impl Levels {
                 }
             });
         }
-        let Some(mut all) = all.filter(|all| all.rows.len() >= FEWEST) else {
-            return Err(TableError::TooFew {
-                levels: tables.iter().map(|t| t.dissipation.len()).sum(),
-                least: FEWEST,
-            });
+        let few = |levels: usize| TableError::TooFew {
+            levels,
+            least: FEWEST,
         };
+        let mut all = all.ok_or_else(|| few(0))?;
         all.rows.sort_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
-        Ok(all)
+        match all.apart().len() {
+            levels if levels < FEWEST => Err(few(levels)),
+            _ => Ok(all),
+        }
+    }
+
+    /// The rows by level, those together that repeat one.
+    pub fn apart(&self) -> Vec<&[Level]> {
+        let mut first = self.rows.first().map_or(0.0, |row| row.amplitude);
+        let repeats = |_: &Level, next: &Level| {
+            let repeats = (next.amplitude / first).ln() <= APART;
+            if !repeats {
+                first = next.amplitude;
+            }
+            repeats
+        };
+        self.rows.chunk_by(repeats).collect()
     }
 
     fn like(&self, other: &Levels) -> bool {

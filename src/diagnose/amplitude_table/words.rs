@@ -2,7 +2,7 @@
 
 use super::evidence::Thresholds;
 use super::held_out::Unseen;
-use super::levels::{Levels, Over};
+use super::levels::{Level, Levels, Over};
 use super::model::Model;
 use super::scatter::{LEAST_LOSS, Scatter};
 use crate::diagnose::findings::{NamedCause, Verdict};
@@ -77,10 +77,16 @@ pub fn notes(
     limits: &Thresholds,
 ) -> Vec<String> {
     let rows = &levels.rows;
-    let slopes: Vec<f64> = rows
+    // Between repeats of a level there is the slope of their noise alone.
+    let of_level = |rows: &&[Level]| {
+        let mean = |of: fn(&Level) -> f64| rows.iter().map(|r| of(r).ln()).sum::<f64>();
+        let count = rows.len() as f64;
+        (mean(|r| r.amplitude) / count, mean(|r| r.loss) / count)
+    };
+    let means: Vec<(f64, f64)> = levels.apart().iter().map(of_level).collect();
+    let slopes: Vec<f64> = means
         .windows(2)
-        .map(|w| (w[1].loss / w[0].loss).ln() / (w[1].amplitude / w[0].amplitude).ln())
-        .filter(|slope| slope.is_finite())
+        .map(|w| (w[1].1 - w[0].1) / (w[1].0 - w[0].0))
         .collect();
     let over = match levels.over {
         Over::Displacement => "displacement",

@@ -151,6 +151,11 @@ fn amplitude(level: &Level, over: Over) -> Option<f64> {
 
 /// Change of slope over the points.
 fn drift(x: &[f64], y: &[f64], weight: &[f64]) -> f64 {
+    // Two amplitudes, each at several frequencies, have one slope and no way to contradict it.
+    let amplitudes = x.chunk_by(|a, b| b - a <= APART).count();
+    if amplitudes < 3 {
+        return 0.0;
+    }
     match slope_drift(x, y, weight) {
         Some((drift, _)) => drift,
         // Three points: the difference of their two slopes.
