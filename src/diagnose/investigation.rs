@@ -62,8 +62,11 @@ pub(super) fn searched(
     }
     let enough = enough / bench.innovation_square();
     progress(SEARCHING);
-    let found = search(&mut bench, timed, (first, known), enough);
+    let mut found = search(&mut bench, timed, (first, known), enough);
     bench.weigh_what_is_left(&found.best);
+    if !bench.noise_is_repeated() {
+        found.weigh(&bench.train);
+    }
     Investigation { bench, found }
 }
 
@@ -100,7 +103,8 @@ pub(super) fn quickly_searched(
         false => sought,
     };
     bench.weigh_what_is_left(&best);
-    let found = Found::unasked(first, best, Vec::new());
+    let mut found = Found::unasked(first, best, Vec::new());
+    found.weigh(&bench.train);
     Investigation { bench, found }
 }
 
@@ -331,7 +335,11 @@ impl Investigation {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::prepare::prepare;
     use crate::diagnose::search::tests::dashpot;
+    use crate::identify::Form;
+    use crate::record::Record;
+    use crate::record::noise::tests::drawn;
 
     /// A dashpot in white noise: what single causes leave here is no reason to search elsewhere if they leave as much
     /// there, be it less than is wanted.
@@ -348,5 +356,36 @@ mod tests {
         there[1].fit.misfit -= 1.1 * ALARM * here.dispersion();
         assert!(gains(&there, f64::INFINITY));
         assert!(!gains(&there, there[1].fit.misfit));
+    }
+
+    /// Where the noise is what is left, every fit is judged by the weights that the last one gave.
+    #[test]
+    fn what_fits_leave_is_weighed_as_the_records_are() {
+        let mut noise = drawn(20261128);
+        let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
+        let force = |t: f64| 50.0 * (5.0 * t).sin() + 30.0 * (3.31 * t * (1.0 + 0.05 * t)).sin();
+        let late = |t: &f64| 1e-8 * force(*t - 0.04) + 1e-8 * noise();
+        let record = Record {
+            name: "dashpot".to_string(),
+            displacement: time.iter().map(late).collect(),
+            force: time.iter().map(|t| force(*t)).collect(),
+            time: Some(time),
+            ..Record::default()
+        };
+        let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        assert!(!bench.noise_is_repeated());
+        let plain = baseline(&bench.train);
+        let asked = (true, f64::INFINITY);
+        let Investigation { bench, found } = searched(bench, (plain, None), asked, &mut |_| ());
+        assert!(!found.best.effects.is_empty());
+        let trials = found.trials.iter().map(|t| &t.fit);
+        for fit in trials.chain([&found.best, &found.baseline]) {
+            let (left, _) = bench.train.misfit(&fit.predict(&bench.train));
+            assert!(
+                (fit.misfit - left).abs() < 1e-6 * left,
+                "{} {left}",
+                fit.misfit
+            );
+        }
     }
 }

@@ -90,17 +90,20 @@ pub fn diagnose_with(
         .map(struck_out)
         .map(|r| thinned(&r, MANY * r.len() / all.max(1)).unwrap_or(r))
         .collect();
+    let given: Vec<usize> = records.iter().map(Record::len).collect();
     let records = thin.as_slice();
     let used: usize = records.iter().map(Record::len).sum();
     let calm = without_drive_noise(form(records), records);
     let Investigation { bench, found } = investigated(&calm, timed, &mut progress);
     progress("measuring the gain on held-out cycles");
     let settled = match &options.dummy {
-        Some(dummy) => experiment::dummy::settle(&bench, found, dummy),
+        Some(dummy) => experiment::dummy::settle(&bench, found, &struck_out(dummy)),
         None => Settled::without_dummy(found),
     };
     let (mut findings, found, whole) = assemble(records, &bench, settled.found, settled.against)?;
     findings.outlook.dummy = settled.said;
+    let said = findings.records.iter_mut().zip(given);
+    said.for_each(|((_, samples, _), given)| *samples = given);
     if calm != records {
         findings.notes.push(
             "The driving channel is noisy: it was smoothed where it is smooth within its noise, which the joint did not feel."
@@ -109,7 +112,7 @@ pub fn diagnose_with(
     }
     if used < all {
         findings.notes.push(format!(
-            "{used} of the {all} samples were used: a cycle keeps at least a hundred, and its turning points."
+            "{used} of the {all} samples were used: a cycle keeps a hundred or more in the mean, and its turning points."
         ));
     }
     progress("looking ahead: what can be told apart, and by which experiment");
@@ -156,8 +159,9 @@ fn assemble(
     against: Vec<String>,
 ) -> Result<(Findings, Found, Fit), JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
+    let sober = sober(bench, found, timed);
     let (found, whole_base) = rayon::join(
-        || sober(bench, found, timed).smoothed(bench),
+        || sober.clone().smoothed(bench),
         || smoothed(&bench.whole, &baseline(&bench.whole)),
     );
     let before = found.baseline.predict(&bench.train);
@@ -195,7 +199,8 @@ fn assemble(
     let beyond_noise = of_before(structure_after.share - structure_after.error);
     let mut doubles = against;
     doubles.extend(outsiders::doubles(&whole, &modelled));
-    doubles.extend(outsiders::outsiders(bench, &found, timed));
+    // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
+    doubles.extend(outsiders::outsiders(bench, &sober, timed));
     let verdict = verdict::verdict(
         named.then(|| {
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0

@@ -44,6 +44,9 @@ const SLOW: f64 = 0.9;
 /// Share of the noise's variance that a law only nearly right may leave: a third of the noise in rms.
 const NEARLY_RIGHT: f64 = 0.1;
 
+/// Samples below which the noise of a record is read off all of it.
+const FEW: usize = 64;
+
 /// Standard deviations that the noise's variance may lie off.
 const SCATTER: f64 = 3.0;
 
@@ -166,16 +169,28 @@ impl Bench {
             .then_some(1.0 + NEARLY_RIGHT + SCATTER * self.noise_error())
     }
 
-    /// Standard error of the noise's variance, as a share of it: `n` samples of correlation `a` tell it to
-    /// `√(2 (1 + a²) / ((1 − a²) n))`.
+    /// Standard error of what noise leaves of all rows, as a share of it: `n` samples of correlation `a` tell a variance to
+    /// `√(2 (1 + a²) / ((1 − a²) n))`, and every estimate is wrong alike in all rows that are weighed by it, of records
+    /// that borrow it as well.
     pub fn noise_error(&self) -> f64 {
-        let independent: f64 = self
-            .noise
-            .iter()
-            .map(|n| (n.autoregression.powi(2), n.told_by()))
-            .map(|(square, samples)| samples * (1.0 - square) / (1.0 + square))
-            .sum();
-        (2.0 / independent.max(1.0)).sqrt()
+        let mut told: Vec<(&Noise, f64)> = Vec::new();
+        for (noise, record) in self.noise.iter().zip(&self.train.records) {
+            let rows = record.weight.iter().filter(|w| **w > 0.0).count() as f64;
+            let same = |n: &Noise| {
+                n.repeated && n.samples == noise.samples && n.autoregression == noise.autoregression
+            };
+            match told.iter_mut().find(|(n, _)| same(n)) {
+                Some((_, all)) => *all += rows,
+                None => told.push((noise, rows)),
+            }
+        }
+        let whole: f64 = told.iter().map(|(_, rows)| rows).sum();
+        let square = |(noise, rows): &(&Noise, f64)| {
+            let a = noise.autoregression.powi(2);
+            let independent = noise.told_by() * (1.0 - a) / (1.0 + a);
+            (rows / whole.max(1.0)).powi(2) * 2.0 / independent.max(1.0)
+        };
+        told.iter().map(square).sum::<f64>().sqrt()
     }
 
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.
@@ -214,13 +229,25 @@ impl Bench {
                 if self.noise[k].repeated {
                     return self.noise[k];
                 }
-                let noise = from_residual(&residuals[k]);
+                let noise = from_residual(&self.witnesses(k, &residuals[k]));
                 Noise {
                     deviation: noise.deviation.max(self.resolution[k]),
                     ..noise
                 }
             })
             .collect()
+    }
+
+    /// What is left of the samples of record `k` that a fit answers for, held-out ones included; of all where those are
+    /// too few.
+    fn witnesses(&self, k: usize, residual: &[f64]) -> Vec<f64> {
+        let marks = residual.iter().zip(&self.struck[k]).enumerate();
+        let own = marks.filter(|(i, (_, struck))| *i >= self.unsure[k] && !**struck);
+        let own: Vec<f64> = own.map(|(_, (left, _))| *left).collect();
+        match own.len() < FEW {
+            true => residual.to_vec(),
+            false => own,
+        }
     }
 }
 
@@ -302,5 +329,22 @@ mod tests {
         let bench = prepare(Form::Stop, &[record], &[Beginning::default()]);
         let told = bench.noise[0].deviation;
         assert!(told < 0.9 * raw.deviation, "{told} of {raw:?}");
+    }
+    /// Noise that one record tells and another borrows is wrong in both by the same.
+    #[test]
+    fn noise_that_is_lent_is_told_no_better() {
+        let mut bench = crate::diagnose::search::tests::dashpot(20261128);
+        let told = bench.noise_error();
+        let (noise, record) = (bench.noise[0], bench.train.records[0].clone());
+        bench.noise.push(noise);
+        bench.train.records.push(record);
+        assert!((bench.noise_error() - told).abs() < 1e-12);
+        // Two that know nothing of each other are better by √2.
+        bench.noise[1].samples += 1;
+        let both = bench.noise_error();
+        assert!(
+            (both * 2.0_f64.sqrt() / told - 1.0).abs() < 1e-3,
+            "{both} {told}"
+        );
     }
 }

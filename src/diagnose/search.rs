@@ -7,7 +7,8 @@ use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion, trials};
-use crate::identify::{Fit, smoothed};
+use crate::identify::{Fit, Problem, smoothed};
+use rayon::prelude::*;
 
 /// Most causes named together.
 pub(super) const MOST: usize = 3;
@@ -41,6 +42,14 @@ impl Found {
             trials,
             unasked: true,
         }
+    }
+
+    /// What every fit leaves as the problem is weighed now.
+    pub(super) fn weigh(&mut self, problem: &Problem) {
+        let trials = self.trials.iter_mut().map(|t| &mut t.fit);
+        let fits: Vec<&mut Fit> = trials.chain([&mut self.baseline, &mut self.best]).collect();
+        let weigh = |fit: &mut Fit| fit.misfit = problem.misfit(&fit.predict(problem)).0;
+        fits.into_par_iter().for_each(weigh);
     }
 
     /// With joints that follow the noise no more than their data ask for.

@@ -80,10 +80,9 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
     };
     let record = &mut problem.records[0];
     record.autoregression = noise.autoregression;
-    record
-        .weight
-        .iter_mut()
-        .for_each(|w| *w = 1.0 / noise.innovation());
+    // Those that stand alone keep none.
+    let counted = record.weight.iter_mut().filter(|w| **w > 0.0);
+    counted.for_each(|w| *w = 1.0 / noise.innovation());
     let fit = baseline(&problem);
     (problem, fit)
 }

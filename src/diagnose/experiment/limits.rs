@@ -92,7 +92,7 @@ pub fn rigs(bench: &Bench, limits: &Limits) -> Vec<Rig> {
         let found = cycles(input);
         let lengths = found
             .iter()
-            .map(|c| record.time[c.end - 1] - record.time[c.start]);
+            .map(|c| record.time[c.end.min(input.len() - 1)] - record.time[c.start]);
         fastest.extend(lengths.filter(|l| *l > 0.0).map(f64::recip));
     }
     fastest.sort_by(f64::total_cmp);
@@ -150,5 +150,13 @@ mod tests {
         assert_eq!(ranges((-100.0, 100.0), None).1, (-100.0, 100.0));
         assert_eq!(ranges((-27.3, 23.7), None).1, (-27.3, 23.7));
         assert_eq!(ranges((-900.0, 900.0), Some(800.0)).0, (-800.0, 800.0));
+    }
+    /// A cycle lasts until the first sample of the next one.
+    #[test]
+    fn the_rig_is_as_fast_as_the_records_were() {
+        let bench = crate::diagnose::search::tests::dashpot(20261128);
+        let asked = rigs(&bench, &Limits::default())[0].rate;
+        let driven = 5.0 / std::f64::consts::TAU;
+        assert!((asked / driven - 1.0).abs() < 0.008, "{asked} {driven}");
     }
 }
