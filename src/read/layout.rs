@@ -208,7 +208,7 @@ impl<'a> Layout<'a> {
     fn chosen(&self, quantity: Quantity, choice: &Choice) -> Result<usize, ReadError> {
         let index = match choice {
             Choice::Number(number) => Some(number - 1).filter(|index| *index < self.head.width),
-            Choice::Name(wanted) => return self.called(quantity, wanted),
+            Choice::Name(wanted) => self.called(quantity, wanted)?,
         };
         index.ok_or_else(|| ReadError::NoSuchColumn {
             file: self.source.file.clone(),
@@ -219,27 +219,21 @@ impl<'a> Layout<'a> {
         })
     }
 
-    /// The column whose whole header that is, or else the one that is called so, its unit left out.
-    fn called(&self, quantity: Quantity, wanted: &str) -> Result<usize, ReadError> {
+    /// The column whose whole header that is, or else the one that is called so, its unit left out; `None` where none is.
+    fn called(&self, quantity: Quantity, wanted: &str) -> Result<Option<usize>, ReadError> {
         let same = |text: &str| quantity::plain(text) == quantity::plain(wanted);
         let cells = || self.head.names.iter().enumerate();
         let whole = cells().find(|(_, cell)| same(cell));
         let mut called = cells().filter(|(_, cell)| same(quantity::name_and_unit(cell).0));
         match (whole, called.next(), called.next()) {
-            (Some((index, _)), ..) | (None, Some((index, _)), None) => Ok(index),
+            (Some((index, _)), ..) | (None, Some((index, _)), None) => Ok(Some(index)),
             (None, Some((first, _)), Some((second, _))) => Err(ReadError::Twice {
                 second: self.spot(second),
                 first: first + 1,
                 first_name: self.name(first),
                 quantity,
             }),
-            (None, None, _) => Err(ReadError::NoSuchColumn {
-                file: self.source.file.clone(),
-                line: self.head.line,
-                quantity,
-                choice: Choice::Name(wanted.to_string()).to_string(),
-                found: self.all_names(),
-            }),
+            (None, None, _) => Ok(None),
         }
     }
 
