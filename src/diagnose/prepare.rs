@@ -175,7 +175,7 @@ impl Bench {
     pub fn noise_error(&self) -> f64 {
         let mut told: Vec<(&Noise, f64)> = Vec::new();
         for (noise, record) in self.noise.iter().zip(&self.train.records) {
-            let rows = record.weight.iter().filter(|w| **w > 0.0).count() as f64;
+            let rows = record.rows() as f64;
             let same = |n: &Noise| {
                 n.repeated && n.samples == noise.samples && n.autoregression == noise.autoregression
             };

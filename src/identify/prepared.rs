@@ -85,6 +85,11 @@ impl Prepared {
         self.weight[sample] > 0.0
     }
 
+    /// Count of samples that count.
+    pub fn rows(&self) -> usize {
+        self.weight.iter().filter(|w| **w > 0.0).count()
+    }
+
     /// Measured input and measured judged channel of a form.
     pub fn channels(&self, form: Form) -> (&[f64], &[f64]) {
         match form {

@@ -327,10 +327,7 @@ impl Problem {
 
     /// Count of samples with weight.
     pub fn rows(&self) -> usize {
-        self.records
-            .iter()
-            .map(|r| r.weight.iter().filter(|w| **w > 0.0).count())
-            .sum()
+        self.records.iter().map(Prepared::rows).sum()
     }
 }
 
