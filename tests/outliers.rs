@@ -184,6 +184,50 @@ fn a_first_or_last_sample_alone_is_found_and_no_transient_is() {
 
 /// The range and the noise of a channel are not those of one sample that a logger lost: the joint is judged as it is
 /// without, and the sample is no witness.
+/// Readings of a channel that was not ready, or was cut off in its last number, in the first samples and the last.
+#[test]
+fn wild_ends_are_struck_out_and_loads_put_on_at_once_stay() {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let sine = |i: usize| 2e-5 * (0.06 * i as f64).sin();
+    let displacement: Vec<f64> = (0..2000)
+        .map(|i| sine(i) + 5e-8 * normal(&mut random))
+        .collect();
+    let record = |spoil: &dyn Fn(&mut Vec<f64>)| {
+        let mut displacement = displacement.clone();
+        spoil(&mut displacement);
+        Record {
+            force: (0..2000).map(|i| 1e8 * sine(i)).collect(),
+            displacement,
+            ..Record::default()
+        }
+    };
+    let cases: [(&[usize], f64); 5] = [
+        (&[0], 0.01),
+        (&[1], 0.5),
+        (&[0, 1], 1e-3),
+        (&[1998], 0.5),
+        (&[1999], -2.1),
+    ];
+    for (places, value) in cases {
+        let struck = struck_out(&record(&|u| places.iter().for_each(|&i| u[i] = value)));
+        assert_eq!(struck.alone, places, "{value}");
+        for &i in places {
+            let off = struck.displacement[i] - sine(i);
+            assert!(off.abs() < 5e-6, "{i}: {off}");
+        }
+    }
+    // A constant load put on behind the first sample, and one of which four samples show more.
+    let put_on = |u: &mut Vec<f64>| {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let level = |i: usize| if i == 0 { 0.0 } else { 1.0 };
+        let held = u.iter_mut().enumerate();
+        held.for_each(|(i, u)| *u = level(i) + 1e-3 * normal(&mut random));
+    };
+    assert_eq!(struck_out(&record(&put_on)).alone, [0_usize; 0]);
+    let higher = |u: &mut Vec<f64>| u[..4].fill(1.0);
+    assert_eq!(struck_out(&record(&higher)).alone, [0_usize; 0]);
+}
+
 #[test]
 fn a_lost_sample_changes_no_verdict() {
     let mut random = ChaCha8Rng::seed_from_u64(20261125);

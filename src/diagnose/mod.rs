@@ -1,6 +1,7 @@
 //! Evidence, joint refits and the held-out verdict: what is wrong, why, and what it gains.
 
 pub mod amplitude_table;
+mod backwards;
 pub mod bootstrap;
 mod catalogue;
 mod curves;
@@ -59,6 +60,7 @@ use unseen_events::investigated;
 use crate::identify::{Fit, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
 use crate::record::Record;
+use crate::record::evened::evened;
 use crate::record::noise::independence;
 use crate::record::outliers::struck_out;
 use crate::record::thinned::thinned;
@@ -85,10 +87,21 @@ pub fn diagnose_with(
 ) -> Result<Findings, JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
     let all: usize = records.iter().map(Record::len).sum();
-    let thin: Vec<Record> = records
+    let struck = records.iter().map(struck_out);
+    let even: Vec<(Record, bool)> = struck
+        .map(|r| match evened(&r) {
+            Some(even) => (even, true),
+            None => (r, false),
+        })
+        .collect();
+    let uneven: Vec<String> = even
         .iter()
-        .map(struck_out)
-        .map(|r| thinned(&r, MANY * r.len() / all.max(1)).unwrap_or(r))
+        .filter(|(_, uneven)| *uneven)
+        .map(|(r, _)| r.name.clone())
+        .collect();
+    let thin: Vec<Record> = even
+        .into_iter()
+        .map(|(r, _)| thinned(&r, MANY * r.len() / all.max(1)).unwrap_or(r))
         .collect();
     let given: Vec<usize> = records.iter().map(Record::len).collect();
     let records = thin.as_slice();
@@ -104,6 +117,9 @@ pub fn diagnose_with(
     findings.outlook.dummy = settled.said;
     let said = findings.records.iter_mut().zip(given);
     said.for_each(|((_, samples, _), given)| *samples = given);
+    if !uneven.is_empty() {
+        findings.notes.push(words::was_uneven(&uneven));
+    }
     if calm != records {
         findings.notes.push(
             "The driving channel is noisy: it was smoothed where it is smooth within its noise, which the joint did not feel."
@@ -206,10 +222,11 @@ fn assemble(
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
                 && !bench.noise_may_be_structure()
                 && doubles.is_empty()
+                && follows > FOLLOWS
         }),
         &structure_before,
         &structure_after,
-        bench.most_left(),
+        (bench.most_left(), bench.is_read_to_the_end()),
         chi,
         probability::unlisted(&found, beyond_noise),
     );

@@ -158,6 +158,11 @@ impl Bench {
         self.noise[record].deviation <= self.resolution[record]
     }
 
+    /// True where no record shows more noise than its channel resolves.
+    pub fn is_read_to_the_end(&self) -> bool {
+        (0..self.noise.len()).all(|k| self.is_finer_than_read(k))
+    }
+
     /// Largest mean whitened square that a model without error may leave, where repeated cycles gave
     /// the noise, and it is no finer than its channel: one, what the estimate of the noise's variance scatters by, and what laws that are
     /// only nearly right may leave.

@@ -28,16 +28,18 @@ const UNSURE: f64 = 0.1;
 /// `named` is `None` where no cause is; else whether the gain on held-out data is beyond its
 /// scatter, without which nothing counts as explained. `most` bounds `chi`, what the model leaves
 /// over the noise's variance, where the noise is known on its own; `unlisted` is the probability of
-/// something that is not in the catalogue.
+/// something that is not in the catalogue; `read` is true where the noise was taken for what the channels resolve.
 pub fn verdict(
     named: Option<bool>,
     before: &Structure,
     after: &Structure,
-    most: Option<f64>,
+    (most, read): (Option<f64>, bool),
     chi: f64,
     unlisted: f64,
 ) -> Verdict {
-    let left = after.significance > STRUCTURED && after.share > NEGLIGIBLE;
+    // Beneath what a channel resolves nobody asks what is left.
+    let shows = !read || chi > 1.0;
+    let left = shows && after.significance > STRUCTURED && after.share > NEGLIGIBLE;
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too, unless what
     // is left is as random as noise: noise that grows with the load is. A few large errors in every bin
     // hide that the bins differ.
@@ -67,12 +69,29 @@ mod tests {
             ringing: 0.0,
             places: Vec::new(),
         };
-        let said = |most, chi| verdict(None, &random, &random, most, chi, 0.0);
+        let said = |most, chi| verdict(None, &random, &random, (most, false), chi, 0.0);
         assert_eq!(said(Some(1.4), 15.0), Verdict::Unexplained);
         // Noise that grows with the load is known too small.
         assert_eq!(said(Some(1.4), 3.0), Verdict::Clean);
         // Where nothing repeats the noise is what is left, or its fast part, which may be far less.
         assert_eq!(said(None, 8.0), Verdict::Clean);
         assert_eq!(said(None, 15.0), Verdict::Unexplained);
+    }
+
+    /// The grid of the dictionary leaves a pattern of a hundredth of what a noise-free channel resolves.
+    #[test]
+    fn a_pattern_beneath_what_is_read_is_no_concern() {
+        let pattern = Structure {
+            share: 0.5,
+            error: 0.01,
+            significance: 50.0,
+            correlation: 0.9,
+            ringing: 0.0,
+            places: Vec::new(),
+        };
+        let said = |read, chi| verdict(None, &pattern, &pattern, (None, read), chi, 0.0);
+        assert_eq!(said(true, 0.01), Verdict::Clean);
+        assert_eq!(said(true, 1.5), Verdict::Unexplained);
+        assert_eq!(said(false, 0.9), Verdict::Unexplained);
     }
 }

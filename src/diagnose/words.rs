@@ -1,5 +1,6 @@
 //! What a diagnosis says in words.
 
+use super::backwards::runs_backwards;
 use super::findings::{Findings, Verdict};
 use super::judged_channel::compliance_ratio;
 use super::prepare::Bench;
@@ -160,6 +161,7 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
         if count > 0 {
             notes.push(stand_alone(&record.name, count, record.len()));
         }
+        notes.extend(runs_backwards(record));
         notes.extend(begins(
             record,
             &prepared.beginning,
@@ -185,6 +187,14 @@ fn finer_than_read(record: &Record, k: usize, bench: &Bench) -> Option<String> {
         record.name,
         quantity(bench.noise[k].deviation, unit)
     ))
+}
+
+/// What is said of records that were read at even steps.
+pub fn was_uneven(names: &[String]) -> String {
+    format!(
+        "Sampled unevenly, as its own clock tells, and read off at even steps, as many as there are samples: {}.",
+        names.join(", ")
+    )
 }
 
 /// What is said where the two channels hardly go together.

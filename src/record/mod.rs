@@ -3,6 +3,7 @@
 mod blended;
 pub mod calm;
 pub mod cycles;
+pub mod evened;
 pub mod jumps;
 pub mod mains;
 pub mod noise;

@@ -98,7 +98,12 @@ fn strewn(found: Vec<(usize, f64)>, other: &[f64]) -> Vec<(usize, f64)> {
 /// The record with samples that stand alone in either channel replaced by what their neighbours say, and marked: a spike
 /// of the input would send a model's memory elsewhere for good, and any of them passes for a range or for noise.
 pub fn struck_out(record: &Record) -> Record {
-    let found = |channel| outliers(channel, Neighbours::Line);
+    let found = |channel: &[f64]| {
+        let ends = wild_ends(channel);
+        let mut all = outliers(&without(channel, &ends), Neighbours::Line);
+        all.extend(ends);
+        all
+    };
     let (of_force, of_displacement) = (found(&record.force), found(&record.displacement));
     // Readings that both channels lost at once make no turns of each other.
     let force = without(&record.force, &of_force);
@@ -113,6 +118,34 @@ pub fn struck_out(record: &Record) -> Record {
     struck.alone.sort_unstable();
     struck.alone.dedup();
     struck
+}
+
+/// Samples at either end that lie farther from zero than all between the ends by more than those lie apart, with the
+/// nearest of the others instead: an amplifier that was not ready, a number that was cut off. Neither a ring that dies
+/// away nor a load that is put on at once is like that; what most of an end is like is no spark.
+fn wild_ends(channel: &[f64]) -> Vec<(usize, f64)> {
+    let (count, end) = (channel.len(), APART + ASKED);
+    if count < 4 * end + 2 * AROUND {
+        return Vec::new();
+    }
+    let between = &channel[end..count - end];
+    let beyond = between.iter().fold(0.0_f64, |most, x| most.max(x.abs())) + span(between);
+    let wild = |i: &usize| channel[*i].abs() > beyond;
+    let one_end = |near: Vec<usize>, inward: usize| {
+        let found: Vec<usize> = near.iter().copied().filter(wild).collect();
+        let instead = |i: usize| {
+            let nearest = near.iter().filter(|j| !wild(j));
+            let nearest = nearest.min_by_key(|j| j.abs_diff(i));
+            channel[nearest.copied().unwrap_or(inward)]
+        };
+        match 2 * found.len() > near.len() {
+            true => Vec::new(),
+            false => found.iter().map(|&i| (i, instead(i))).collect(),
+        }
+    };
+    let mut all = one_end((0..end).collect(), end);
+    all.extend(one_end((count - end..count).collect(), count - end - 1));
+    all
 }
 
 /// The channel with what its neighbours say in the place of samples that stand alone.
