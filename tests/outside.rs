@@ -21,6 +21,16 @@ type Law<'a> = &'a mut dyn FnMut(f64, f64) -> (f64, f64);
 /// Sixty sliders under a stepped sine of displacement with noise in the force. The law answers every step with the
 /// share of the friction that is there, and with what the specimen has settled by.
 fn record(law: Law) -> Record {
+    read(law, 0.3)
+}
+
+/// The same of a joint that nothing happens to, without noise.
+fn quiet() -> Record {
+    read(&mut |_, _| (1.0, 0.0), 0.0)
+}
+
+/// The record of such a law with noise of so many newtons.
+fn read(law: Law, loud: f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let mut reached = [0.0_f64; 60];
@@ -38,7 +48,7 @@ fn record(law: Law) -> Record {
         }
         before = u - settled;
         (friction, settled) = law(lost, u);
-        force.push(2e6 * reached.iter().sum::<f64>() + 0.3 * noise());
+        force.push(2e6 * reached.iter().sum::<f64>() + loud * noise());
         displacement.push(u);
     }
     Record {
@@ -95,4 +105,36 @@ fn a_specimen_that_settles_under_its_highest_peak_is_not_explained() {
     });
     assert_ne!(findings.verdict, Verdict::Explained, "seed {SEED}");
     assert!(doubles.contains("settles"), "seed {SEED}: {findings:?}");
+}
+
+/// A sensor whose amplifier warms up over a quarter of the record and then reads 8 % too much, of a displacement that is
+/// prescribed and of one that answers.
+#[test]
+fn a_gain_that_warms_up_is_no_running_in() {
+    for answers in [false, true] {
+        let mut record = record(&mut |_, _| (1.0, 0.0));
+        let mut random = ChaCha8Rng::seed_from_u64(SEED);
+        let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+        let samples = record.force.len();
+        if answers {
+            // The same joint in other noise: the force as it is, the displacement 2 nm off.
+            record = quiet();
+            record
+                .displacement
+                .iter_mut()
+                .for_each(|u| *u += 2e-9 * noise());
+        }
+        let share = |i: usize| i as f64 / samples as f64;
+        let reading = record.displacement.iter_mut().enumerate();
+        reading.for_each(|(i, u)| *u *= 1.0 + 0.08 * (1.0 - (-4.0 * share(i)).exp()));
+        let findings = diagnose(&[record], |_| ()).unwrap();
+        let place = format!("seed {SEED}, answers {answers}: {findings:?}");
+        assert_ne!(findings.verdict, Verdict::Explained, "{place}");
+        assert_ne!(findings.verdict, Verdict::Clean, "{place}");
+        let doubles = findings.unexplained.doubles.join("; ");
+        assert!(
+            doubles.contains("gain of the displacement sensor"),
+            "{place}"
+        );
+    }
 }

@@ -251,6 +251,15 @@ impl Reader<'_> {
         if count > (self.0.len() / 8) as u64 {
             return Err(SnapshotError::Damaged { field });
         }
-        (0..count).map(|_| self.number(field)).collect()
+        (0..count)
+            .map(|_| {
+                let number = self.number(field)?;
+                // Some are infinite, as what a rigid joint has or a limit that is never reached; none is no number.
+                match number.is_nan() {
+                    true => Err(SnapshotError::Damaged { field }),
+                    false => Ok(number),
+                }
+            })
+            .collect()
     }
 }

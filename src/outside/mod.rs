@@ -3,6 +3,7 @@
 
 mod heated_friction;
 mod settling;
+mod warming_gain;
 
 use crate::causes::Scale;
 use crate::joint::effect::Effect;
@@ -30,4 +31,8 @@ pub trait Outsider: Effect {
 }
 
 /// Every such law.
-pub static OUTSIDE: &[&dyn Outsider] = &[&heated_friction::HeatedFriction, &settling::Settling];
+pub static OUTSIDE: &[&dyn Outsider] = &[
+    &heated_friction::HeatedFriction,
+    &settling::Settling,
+    &warming_gain::WarmingGain,
+];

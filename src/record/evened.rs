@@ -127,7 +127,7 @@ fn even_clock(time: &[f64]) -> Vec<f64> {
     even
 }
 
-/// Times as averages of those about them, as many on either side, with the first and the last where they were.
+/// Times as averages of those about them say.
 fn slowly(time: &[f64]) -> Vec<f64> {
     let last = time.len() - 1;
     let rates = |about: usize| {
@@ -152,9 +152,12 @@ fn slowly(time: &[f64]) -> Vec<f64> {
     }
     (0..=last)
         .map(|i| {
-            let about = ABOUT.min(i).min(last - i);
-            let near = &time[i - about..=i + about];
-            near.iter().sum::<f64>() / near.len() as f64
+            // Ends go on as evenly as what is about the nearest sample that has as many on either side.
+            let middle = i.clamp(ABOUT, last - ABOUT);
+            let near = &time[middle - ABOUT..=middle + ABOUT];
+            let mean = near.iter().sum::<f64>() / near.len() as f64;
+            let step = (near[2 * ABOUT] - near[0]) / (2 * ABOUT) as f64;
+            mean + step * (i as f64 - middle as f64)
         })
         .collect()
 }
@@ -262,7 +265,7 @@ mod tests {
         assert!(even.windows(2).all(|w| w[1] > w[0]));
         let ratio = |w: &[f64]| (w[2] - w[1]) / (w[1] - w[0]);
         assert!(even.windows(3).all(|w| (ratio(w) - 1.0).abs() < 0.1));
-        assert!((even[1999] - time[1999]).abs() < 1e-12);
+        assert!((even[1999] - time[1999]).abs() < 0.05);
     }
 
     #[test]

@@ -136,6 +136,17 @@ fn damaged_bytes_are_refused() {
     }
     assert!(told(spoil(177, 0xff)).contains("parameters is damaged"));
     unit.free_state(state);
+    // Nor is what a joint with effects remembers: its last number.
+    let resources = Resources::new(BOLT_WITH_CAUSES);
+    let unit = Unit::stepping(&resources, Drive::Force);
+    run(&unit, 1..50);
+    let state = unit.save();
+    let mut bytes = unit.serialize(state);
+    let last = bytes.len() - 8;
+    bytes[last..].copy_from_slice(&f64::NAN.to_le_bytes());
+    let told = unit.error(unit.deserialize(&bytes, &mut place));
+    assert!(told.contains("simulation is damaged"), "{told}");
+    unit.free_state(state);
 }
 
 /// Every byte flipped in turn: refused or taken, never a crash, and what is refused changes

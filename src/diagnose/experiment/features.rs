@@ -18,7 +18,7 @@ const PLAYS: [f64; 3] = [0.05, 0.15, 0.4];
 /// Memories of what fades, in cycles.
 const MEMORIES: [f64; 3] = [0.1, 1.0, 5.0];
 
-/// All features of the records, as a model predicts them.
+/// All features of the records, as a model answers them, the measuring chain aside.
 ///
 /// Sizes are those of all records together, so that a coefficient means the same in each.
 pub fn features(bench: &Bench, predictions: &[Prediction]) -> Vec<Feature> {
@@ -33,12 +33,17 @@ pub fn features(bench: &Bench, predictions: &[Prediction]) -> Vec<Feature> {
         let each = (0..predictions.len()).flat_map(of);
         each.fold(0.0_f64, |a, b| a.max(b.abs()))
     };
+    // As the joint answers: where a sensor's zero stands has no part in a square or a cube.
+    let answered = |k: usize| match force_driven {
+        true => &predictions[k].truth.displacement,
+        false => &predictions[k].truth.force,
+    };
     let scale_in = largest(&|k| problem.channels(k).0.to_vec());
-    let scale_out = largest(&|k| predictions[k].judged.clone());
-    for (k, prediction) in predictions.iter().enumerate() {
+    let scale_out = largest(&|k| answered(k).clone());
+    for k in 0..predictions.len() {
         let history = History {
             x: over(problem.channels(k).0, scale_in),
-            y: over(&prediction.judged, scale_out),
+            y: over(answered(k), scale_out),
             steps: &problem.records[k].steps,
         };
         for (place, (name, values)) in history.features(names).into_iter().enumerate() {
@@ -61,7 +66,7 @@ pub fn features(bench: &Bench, predictions: &[Prediction]) -> Vec<Feature> {
     all
 }
 
-/// One record's prescribed and predicted channel, over their largest magnitudes.
+/// One record's prescribed channel and the joint's answer, over their largest magnitudes.
 struct History<'a> {
     x: Vec<f64>,
     y: Vec<f64>,
