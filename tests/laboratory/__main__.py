@@ -7,13 +7,13 @@ import time
 
 from . import demo as demo_records
 from . import noise_free, plan
+from .bench import Task
 from .blind import blind_test
-from .case import draw_case, write_case
+from .case import write_case
 from .effects import CATALOGUE, EFFECTS
 from .follow_up import follow_ups, measure_dummy, run_load
 from .marks import Foreign
 from .noise import KINDS
-from .pair import draw_pair
 from .scorecard import Mixed, card
 from .speed import RATES, speed
 
@@ -42,6 +42,9 @@ def _parser():
     draw.add_argument("--case", type=int, default=0)
     draw.add_argument("--effect", default=None, help="or two, joined by +; pair: by the seed")
     draw.add_argument("--ratio", type=float, default=None, help="misfit after refit over noise")
+    way = draw.add_mutually_exclusive_group()
+    way.add_argument("--goes-on", action="store_true", help="one joint through all files")
+    way.add_argument("--begin", action="store_true", help="files cut, or a zero of the drive moved")
     blind = commands.add_parser("blind", help="draw cases, run the finder, judge it")
     blind.add_argument("--cases", type=int, default=24)
     blind.add_argument("--effects", type=_names, default=None, help="names, by commas")
@@ -100,6 +103,20 @@ def _parser():
     return parser
 
 
+def _task(asked, seed):
+    """The case that `draw` asks for, as a measurement puts it."""
+    effects = () if asked.effect == "pair" else tuple((asked.effect or "").split("+"))
+    if len(effects) == 1:
+        span = Task.span if asked.ratio is None else (asked.ratio, asked.ratio)
+        effects = (asked.effect,)
+    else:
+        span = (asked.ratio or plan.PAIR_STRENGTH,) * 2
+        if asked.goes_on or asked.begin:
+            raise SystemExit("--goes-on and --begin are of cases with one effect, or none")
+    way = "begun" if asked.begin else "draw"
+    return Task(seed, asked.case, effects, span, asked.noise, way, asked.goes_on)
+
+
 def _measured(asked, seed):
     """One measurement, or rounds of all; the card is drawn from whatever the folder holds."""
     if asked.command == "scorecard":
@@ -143,12 +160,7 @@ def _run(asked, seed):
         speed(seed, asked.cases, asked.samples, rates, asked.iwan, asked.output)
         return 0
     if asked.command == "draw":
-        if asked.effect and (asked.effect == "pair" or "+" in asked.effect):
-            names = None if asked.effect == "pair" else asked.effect.split("+")
-            drawn = draw_pair(seed, asked.case, names, asked.ratio or 2.0, asked.noise)
-        else:
-            drawn = draw_case(seed, asked.case, asked.effect, asked.ratio, noise=asked.noise)
-        for path in write_case(asked.output, *drawn):
+        for path in write_case(asked.output, *_task(asked, seed).draw()):
             print(path)
         print(f"seed {seed}", file=sys.stderr)
     elif asked.command == "blind":

@@ -1,4 +1,6 @@
-"""Effects that the finder is asked to name, each in a law of the laboratory's own.
+"""Effects that the finder is asked to name, in the laboratory's own words.
+
+Which of these laws the finder's hold exactly is said by `parameters.SAME_FORM`.
 
 Every effect draws its shape once; `strength` in (0, 1] then scales it, one being the most that
 an engineer would still call a bolted joint with that effect.

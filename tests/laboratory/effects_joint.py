@@ -1,4 +1,4 @@
-"""The remaining joint effects of the finder's catalogue, again in laws of the laboratory's own."""
+"""The remaining joint effects of the finder's catalogue."""
 
 import numpy as np
 

@@ -20,16 +20,29 @@ from .score import judge, print_totals, share
 
 FINE = FOLLOW_UP_FINE
 CAUTION = (1.0, 0.8, 0.65)  # of the largest force, where the joint slips away under it
+# Of full slip, drawn by the case: what an engineer dares. No multiple of the truth is told.
+DARED = (0.8, 0.95)
 SI = {"force": "N", "length": "m", "swap": False}
 
 
-def _restage(truth):
+def restage(truth):
+    """The case of a truth before its noise, drawn again."""
     if "case" not in truth:
         return demo.stage(truth["seed"])
     ratio, kind = truth["ratio_asked"] or None, truth["noise"]["asked"]
     if "effects" in truth:
         return stage_pair(truth["seed"], truth["case"], truth["effects"], ratio, kind)[0]
-    return stage_case(truth["seed"], truth["case"], truth["effect"], ratio, noise=kind)
+    goes_on = truth.get("beginning", {}).get("way") == "goes_on"
+    head = (truth["seed"], truth["case"], truth["effect"], ratio)
+    return stage_case(*head, noise=kind, goes_on=goes_on)
+
+
+def _read_at_rest(truth, time, force, displacement):
+    """The record with the zero that the driving channel of the case has; it stays with the rig."""
+    zero = truth.get("beginning", {}).get("reads_at_rest", 0.0)
+    if truth.get("drive") == "displacement":
+        return time, force, displacement + zero
+    return time, force + zero, displacement
 
 
 def read_load(path):
@@ -70,9 +83,9 @@ def measure(staged, rng, time, command, by_force, fine_steps=FINE):
 def run_load(truth, load, directory):
     """Measure the case of `truth` under `load`; writes DIR/test-next.csv and returns its path."""
     truth = json.loads(Path(truth).read_text(encoding="utf-8"))
-    staged = _restage(truth)
+    staged = restage(truth)
     rng = np.random.default_rng([truth["seed"], truth.get("case", 0), 1001])
-    record = measure(staged, rng, *read_load(load))
+    record = _read_at_rest(truth, *measure(staged, rng, *read_load(load)))
     path = Path(directory) / "test-next.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
     csvfile.write_record(path, *record, SI, ["joint test", "the next one"])
@@ -83,19 +96,22 @@ def measure_dummy(truth, directory):
     """A solid specimen, stiff as the joint at rest, under the first load of the case and through
     its measuring chain; writes DIR/dummy.csv and returns its path."""
     truth = json.loads(Path(truth).read_text(encoding="utf-8"))
-    staged = _restage(truth)
+    staged = restage(truth)
     scene, effect = staged.scene, staged.effect
     compliance = 1.0 / scene.joint.network_stiffness + 1.0 / scene.joint.series
     first, clean = scene.histories[0], scene.clean[0]
     # Driven as the joint was: the dummy bears the same force at the same time.
     force, displacement = clean.force, clean.force * compliance
     still = np.zeros_like(force)
-    trace = rig.Trace(clean.time, force, displacement, still, still)
+    # A solid specimen has no element to hold a force or to slip.
+    rest = rig.Rest(np.zeros(0), 0.0, float(displacement[-1]))
+    trace = rig.Trace(clean.time, force, displacement, still, still, rest)
     effect.dt = float(clean.time[1] - clean.time[0])
     every = slice(None, None, first.fine)
-    rng = np.random.default_rng([truth["seed"], truth["case"], 1002])
+    rng = np.random.default_rng([truth["seed"], truth.get("case", 0), 1002])
     channels = (effect.read_force(trace)[every], effect.read_displacement(trace)[every])
     record = _noisy(staged, rng, clean.time[every], *channels, scene.by_force)
+    record = _read_at_rest(truth, *record)
     path = Path(directory) / "dummy.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
     csvfile.write_record(path, *record, SI, ["solid specimen"])
@@ -103,12 +119,14 @@ def measure_dummy(truth, directory):
 
 
 def _limits(truth, caution=1.0):
-    """What the rig can do: nearly full slip, ten times the rate, the time of the first tests."""
+    """What the rig can do: some share of full slip, and never less than it did in the first tests;
+    ten times their rate, and their time."""
     fastest = max(max(f["rates_Hz"]) for f in truth["files"])
     seconds = sum(f["duration_s"] for f in truth["files"])
     limits = {"--limit-rate": 10.0 * fastest, "--limit-duration": seconds}
     if truth["drive"] == "force":
-        most = truth["peak"] * max(1.0, 0.95 / truth["peak_share_of_full_slip"])
+        dared = np.random.default_rng([truth["seed"], truth["case"], 1003]).uniform(*DARED)
+        most = float(truth["peak"] * max(1.0, dared / truth["peak_share_of_full_slip"]))
         limits["--limit-force"] = caution * most
     return tuple(word for option, value in limits.items() for word in (option, repr(value)))
 

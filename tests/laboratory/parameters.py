@@ -1,8 +1,9 @@
 """Which parameters of the laboratory's laws mean what a parameter of the finder's law means.
 
-One table, and the reasons for what is not in it. A quantity is of the *same law* where both laws
-agree in form as well: then the finder's interval can be held to its promise. Of *another law* it is
-the same quantity read off a curve of another form: only the error is taken.
+One table, and the reasons for what is not in it; beside it which effects have a law in common. A
+quantity is of the *same law* where both laws agree in form as well: then the finder's interval can
+be held to its promise. Of *another law* it is the same quantity read off a curve of another form:
+only the error is taken.
 """
 
 from collections.abc import Callable
@@ -131,6 +132,23 @@ QUANTITIES = [
     Quantity("ac_coupling", "corner_frequency", _corner("displacement")),
     Quantity("ac_coupling", "cell_corner", _corner("force")),
 ]
+
+# Effects of which a form of the finder's law holds the laboratory's exactly, or some of its forms.
+SAME_FORM = {
+    "viscous_damping": "a dashpot",
+    "quadratic_damping": "a drag",
+    "clearance": "seated by a tanh; not by a root",
+    "preload_loss": "exponential, hyperbolic and power of energy; exponential of the path",
+    "asymmetric_friction": "both: what one side alone loses is a joint of less friction besides",
+    "static_friction_drop": "each contact by itself",
+    "creep": "three Kelvin elements a decade apart",
+    "fixture_inertia": "a mass",
+    "sensor_delay": "a time and a filter of first order",
+    "displacement_drift": "straight, exponential and root",
+    "offset_step": "the logistic function is a tanh",
+    "mains_hum": "the mains and its third harmonic",
+    "ac_coupling": "of first order, and of second with two equal corners",
+}
 
 NOT_COMPARABLE = {
     "slack_growth": "the laboratory's play grows with a power of the load, the finder's in line",

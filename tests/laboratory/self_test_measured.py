@@ -301,6 +301,15 @@ class Quality(unittest.TestCase):
         compared = {quantity.cause for quantity in parameters.QUANTITIES}
         self.assertEqual(compared | set(parameters.NOT_COMPARABLE), set(CATALOGUE))
         self.assertFalse(compared & set(parameters.NOT_COMPARABLE))
+        same = {quantity.cause for quantity in parameters.QUANTITIES if quantity.same_law}
+        self.assertLessEqual(same, set(parameters.SAME_FORM))
+        self.assertLess(set(parameters.SAME_FORM), set(CATALOGUE))
+        for page in (
+            Path(__file__).with_name("README.md"),
+            Path(__file__).parents[2] / "README.md",
+        ):
+            text = page.read_text(encoding="utf-8")
+            self.assertIn(f"or {len(parameters.SAME_FORM)} of the {len(CATALOGUE)}", text, page)
         scenes = [small_scene(6, by_force) for by_force in (True, False)]
         for quantity in parameters.QUANTITIES:
             values = []
