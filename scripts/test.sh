@@ -38,7 +38,7 @@ step "Rust lints"                     cargo clippy --locked --quiet --release --
 step "Python formatting"              "$PYTHON" -m ruff format --check --quiet .
 step "Python lints"                   "$PYTHON" -m ruff check --quiet .
 step "Rust tests"                     cargo test --locked --quiet --release --features importer
-step "laboratory"                     "$PYTHON" -m unittest -q laboratory.self_test
+step "laboratory"                     "$PYTHON" -m unittest -q laboratory.self_test blind.self_test
 step "blind tests"                    "$PYTHON" tests/blind/run.py --iwan "$IWAN"
 step "what was once missed"           "$PYTHON" tests/blind/put_again.py --iwan "$IWAN"
 step "demo"                           scripts/demo.sh "$demo_result"
