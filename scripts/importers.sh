@@ -35,9 +35,8 @@ install() {
     local line missing=no
     while read -r line; do
         case "$line" in "" | "#"*) continue ;; esac
-        # One line holds what belongs together, so its words are several arguments.
-        # shellcheck disable=SC2086
-        "${install[@]}" $line >&2 || missing=yes
+        # One argument, with what it says of the version of Python.
+        "${install[@]}" "$line" >&2 || missing=yes
     done <"$1"
     [ "$missing" = no ]
 }

@@ -1,6 +1,7 @@
 //! `iwan export`: the archive, and every way in which it is refused.
 
 use iwan::joint::Drive;
+use iwan::pack::{FmiVersion, Library, Platform};
 use iwan::variables::guid;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,20 @@ fn folder(name: &str) -> PathBuf {
 fn library() -> PathBuf {
     let test = std::env::current_exe().expect("this test has a file");
     test.with_file_name(format!("libiwan{}", std::env::consts::DLL_SUFFIX))
+}
+
+fn this_machine(version: FmiVersion) -> &'static Platform {
+    Platform::of_this_machine(version).expect("a platform of FMI")
+}
+
+/// Where the library of this machine lies in an archive.
+fn library_entry(version: FmiVersion) -> String {
+    let library = Library {
+        platform: this_machine(version),
+        path: PathBuf::new(),
+        bytes: vec![],
+    };
+    library.entry(version)
 }
 
 fn export(folder: &Path, library: Option<&Path>, arguments: &[&str]) -> Output {
@@ -89,7 +104,7 @@ fn the_archive_holds_the_joint_as_it_is_and_its_guid() {
         assert!(xml.contains(&format!("driven in {name}")));
         let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
         assert!(page.contains("break_free_limit"));
-        let packed = entry(&archive, "binaries/linux64/IwanJoint.so");
+        let packed = entry(&archive, &library_entry(FmiVersion::Two));
         assert_eq!(packed, std::fs::read(library()).expect("the library"));
     }
     assert_eq!(
@@ -144,7 +159,7 @@ fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
     );
     assert!(xml.contains("hasEventMode=\"false\""), "{xml}");
     assert_eq!(entry(&archive, "resources/joint.json"), JOINT.as_bytes());
-    let packed = entry(&archive, "binaries/x86_64-linux/IwanJoint.so");
+    let packed = entry(&archive, &library_entry(FmiVersion::Three));
     assert_eq!(packed, std::fs::read(library()).expect("the library"));
     let terminals = entry(&archive, iwan::pack::terminals::ENTRY);
     assert_eq!(terminals, iwan::pack::terminals::xml().expect("XML"));
@@ -162,7 +177,7 @@ fn the_archive_of_fmi_3_has_its_own_xml_and_platform_names() {
 #[test]
 fn several_platforms_in_one_archive() {
     let folder = folder("platforms");
-    let elf = library().display().to_string();
+    let built = library().display().to_string();
     // Libraries of other platforms, as far as their heads and their stamps go.
     let stamp = iwan::variables::STAMP.as_bytes();
     let mut pe = vec![0; 64];
@@ -176,13 +191,14 @@ fn several_platforms_in_one_archive() {
     arm.extend(stamp);
     std::fs::write(folder.join("arm.so"), &arm).expect("a file");
     std::fs::write(folder.join("IwanJoint.dll"), &pe).expect("a file");
-    let (linux, windows) = (format!("linux64={elf}"), "win64=IwanJoint.dll");
+    let here = this_machine(FmiVersion::Two).name;
+    let (own, windows) = (format!("{here}={built}"), "win64=IwanJoint.dll");
     let arguments = [
         "joint.json",
         "-o",
         "joint.fmu",
         "--binary",
-        &linux,
+        &own,
         "--binary",
         windows,
         "--binary",
@@ -191,21 +207,21 @@ fn several_platforms_in_one_archive() {
     let archive = fine(&folder, &arguments);
     assert_eq!(entry(&archive, "binaries/win64/IwanJoint.dll"), pe);
     assert_eq!(entry(&archive, "binaries/aarch64-linux/IwanJoint.so"), arm);
-    assert!(!entry(&archive, "binaries/linux64/IwanJoint.so").is_empty());
+    assert!(!entry(&archive, &library_entry(FmiVersion::Two)).is_empty());
     let twice = [
         "joint.json",
         "-o",
         "no.fmu",
         "--binary",
-        &linux,
+        &own,
         "--binary",
-        &linux,
+        &own,
     ];
     refused(
         &folder,
         None,
         &twice,
-        "platform `linux64` has two libraries",
+        &format!("platform `{here}` has two libraries"),
     );
 }
 
@@ -489,7 +505,7 @@ fn the_archive_tells_where_its_numbers_come_from() {
 /// Folders of both versions; ARM has one name in either.
 #[test]
 fn platforms_have_the_names_of_each_version() {
-    use iwan::pack::{FmiVersion, Library, PLATFORMS, Platform};
+    use iwan::pack::PLATFORMS;
     let platforms = [
         ("linux64", "x86_64-linux", "IwanJoint.so"),
         ("win64", "x86_64-windows", "IwanJoint.dll"),

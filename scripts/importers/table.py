@@ -362,7 +362,7 @@ def main() -> int:
     arguments = parser.parse_args()
     table = Table(arguments.iwan, arguments.folder, arguments.quick)
     table.fill()
-    day = datetime.datetime.now(datetime.UTC).date().isoformat()
+    day = datetime.datetime.now(datetime.timezone.utc).date().isoformat()
     describe = ["git", "-C", ROOT, "describe", "--always", "--dirty", "--exclude=*"]
     commit = subprocess.run(describe, capture_output=True, text=True).stdout.strip()
     where = f"{platform.system()} {platform.machine()}, Python {platform.python_version()}"
