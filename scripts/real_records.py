@@ -1,4 +1,4 @@
-"""Runs every record of ../shared/data through the program and writes the numbers of docs/real-*.md.
+"""Runs measured records of others through the program and writes the numbers of docs/real-*.md.
 
 Called by scripts/real_records.sh. What stands between the marks `<!-- numbers -->` and
 `<!-- end of numbers -->` of a page is written here, the prose around it by hand.
@@ -7,6 +7,7 @@ Called by scripts/real_records.sh. What stands between the marks `<!-- numbers -
 import argparse
 import html
 import json
+import os
 import re
 import subprocess
 import sys
@@ -17,7 +18,7 @@ import bouc_wen
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-DATA = ROOT.parent / "shared" / "data"
+DATA = Path(os.environ.get("IWAN_REAL_DATA") or ROOT.parent / "shared" / "data")
 BEGIN, END = "<!-- numbers -->", "<!-- end of numbers -->"
 
 DAMPER = DATA / "friction_damper_backlash"
@@ -271,21 +272,23 @@ def beam(iwan, out):
 
 
 def main():
-    """Runs what the command line names."""
+    """Runs what the command line names; the exit status."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--iwan", default=str(ROOT / "target" / "release" / "iwan"))
     parser.add_argument("--output", type=Path, default=ROOT / "result" / "real")
     parser.add_argument("only", nargs="*", help="damper, rubber, mr, beam; all by default")
     arguments = parser.parse_args()
     if not DATA.is_dir():
-        say(f"{DATA} is not there: nothing to do")
-        return
+        say(f"{DATA} is not there: the records are no part of the repository, docs/real-*.md say")
+        say("whose they are; IWAN_REAL_DATA names the folder that holds them")
+        return 2
     arguments.output.mkdir(parents=True, exist_ok=True)
     pages = {"beam": beam, "mr": mr_damper, "damper": damper, "rubber": rubber}
     for name, page in pages.items():
         if not arguments.only or name in arguments.only:
             page(arguments.iwan, arguments.output)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

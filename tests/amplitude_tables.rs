@@ -12,6 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+mod measured;
+
 /// A power-law joint with χ = −0.4 in micro-slip, closed form: `G = K u − B u^(χ+2)`, loss of a
 /// settled loop `4 d(u)` with `d = B (χ+1) u^(χ+3)/(χ+3)`.
 const CHI: f64 = -0.4;
@@ -379,12 +381,10 @@ fn a_diagnosis_takes_away_only_what_one_wrote() {
 /// formed; no Iwan network alone has these levels.
 #[test]
 fn the_bolted_beam_stiffens_where_no_network_does() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../shared/data/brake_reuss_beam/mode1_amplitude_table.csv");
-    if !file.exists() {
-        println!("skipped: {} is not there", file.display());
+    let Some(data) = measured::records() else {
         return;
-    }
+    };
+    let file = data.join("brake_reuss_beam/mode1_amplitude_table.csv");
     let file = file.to_str().expect("a path in UTF-8");
     let folder = folder("beam");
     let bare = iwan(&["diagnose", file, "-o", "bare"], &folder);

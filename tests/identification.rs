@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+mod measured;
+
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// A python with numpy and scipy: the repository's own, else the system's.
@@ -342,11 +344,10 @@ fn a_displacement_that_drives_has_no_zero_of_its_own() {
 /// The bolted beam's table, where the measured records are at hand.
 #[test]
 fn the_bolted_beam_has_no_single_power_law() {
-    let file = Path::new(ROOT).join("../shared/data/brake_reuss_beam/mode1_amplitude_table.csv");
-    if !file.exists() {
-        println!("skipped: {} is not there", file.display());
+    let Some(data) = measured::records() else {
         return;
-    }
+    };
+    let file = data.join("brake_reuss_beam/mode1_amplitude_table.csv");
     let table = match read::file(&file, &read::Options::default()) {
         Ok(read::Loaded {
             measurement: Measurement::Amplitudes(table),

@@ -4,6 +4,8 @@ use iwan::read::{self, Options, Quantity, ReadError};
 use iwan::record::{AmplitudeTable, Measurement, Record};
 use std::path::{Path, PathBuf};
 
+mod measured;
+
 /// A file of that content, in a folder of this test run.
 fn written(name: &str, content: &[u8]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reading");
@@ -428,11 +430,9 @@ fn a_load_has_one_drive_or_both() {
 
 #[test]
 fn every_real_record_at_hand_is_read_as_it_is() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if !data.is_dir() {
-        eprintln!("skipped: no real records at ../shared/data");
+    let Some(data) = measured::records() else {
         return;
-    }
+    };
     let mut read = 0;
     for folder in std::fs::read_dir(&data).expect("a folder").flatten() {
         let Ok(files) = std::fs::read_dir(folder.path()) else {
@@ -474,7 +474,7 @@ fn every_real_record_at_hand_is_read_as_it_is() {
             read += 1;
         }
     }
-    assert!(read > 0, "../shared/data holds no record");
+    assert!(read > 0, "{} holds no record", data.display());
 }
 
 #[test]
