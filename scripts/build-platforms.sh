@@ -215,7 +215,9 @@ inspect() {
 # this machine: as it is linked here it is not meant for others.
 find_platform() {
     local stamp library="$out/$1/${packed_as[$1]}"
-    stamp=$(grep -aom1 'iwan-sources-[0-9a-f]\{16\}' "$FMU_LIBRARY")
+    stamp=$(grep -aom1 'iwan-sources-[0-9a-f]\{16\}' "$FMU_LIBRARY") || true
+    # An empty stamp would be found in any library.
+    [ -n "$stamp" ] || { built[$1]="FAILED: $FMU_LIBRARY has no stamp"; return 1; }
     if [ -e "$library" ] && grep -aqF "$stamp" "$library"; then
         library_of[$1]=$library
         inspect "$1"

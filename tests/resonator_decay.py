@@ -74,9 +74,9 @@ class Coupled:
         energy = 0.5 * self.cycles.force**2
         damping = self.cycles.dissipation / energy
         self.assertTrue(np.all(np.diff(damping) < 0.0))
-        self.assertGreater(damping[0] / damping[-1], 4.0)
+        self.assertGreater(damping[0] / damping[-1], 6.0)
         periods = np.diff(self.decay.time[np.isin(self.decay.time, self.cycles.peaks)])
-        self.assertLess(periods[-10:].mean(), 0.99 * periods[:3].mean())
+        self.assertLess(periods[-10:].mean(), 0.97 * periods[:3].mean())
 
     def test_both_units_are_valid(self):
         self.assertEqual(validate_fmu(str(self.joint)), [])
@@ -106,9 +106,9 @@ class DrivenInForce(Coupled, unittest.TestCase):
         other = self.by_displacement
         for name in ("force", "displacement", "velocity", "dissipation", "stored_energy"):
             one, two = getattr(self.decay, name), getattr(other, name)
-            self.assertLess(np.abs(one - two).max(), 1e-8 * np.abs(two).max(), name)
+            self.assertLess(np.abs(one - two).max(), 1e-9 * np.abs(two).max(), name)
         mismatch = np.abs(self.decay.displacement - self.decay.strain).max()
-        self.assertLess(mismatch, 1e-9 * np.abs(self.decay.strain).max())
+        self.assertLess(mismatch, 5e-10 * np.abs(self.decay.strain).max())
 
     def test_newton_needs_few_steps(self):
         # The derivative is the joint's own: one trial, one correction, a third at reversals.

@@ -25,7 +25,8 @@ use std::path::PathBuf;
 /// Load an exported joint, run it and compare.
 ///
 /// The archive's XML and libraries are held against the joint.json inside it; the archive is loaded
-/// through the `fmi` crate and driven step by step, and must agree with `iwan simulate` to rounding.
+/// through the `fmi` crate (FMI 2.0) or `fmi-rs` (FMI 3.0) and driven step by step, and must agree
+/// with `iwan simulate` to rounding.
 /// With a record it also says how the joint answers beside the measurement, and what the
 /// dissipation loses by the importer's communication step.
 #[derive(Debug, clap::Args)]
@@ -36,7 +37,7 @@ pub struct Check {
     /// The load: a file with time, and force or displacement by the archive's drive; by default a
     /// growing two-tone load that is made for the joint
     record: Option<PathBuf>,
-    /// The importer's communication step \[s\] to judge; by default the one that the archive
+    /// The importer's communication step to judge, in seconds; by default the one that the archive
     /// suggests
     #[arg(
         long,

@@ -1,4 +1,4 @@
-//! Noise read off the fast half of a residual's spectrum, where a model's errors hardly reach.
+//! Noise read off the upper seven eighths of a residual's spectrum, where a model's errors hardly reach.
 
 use std::f64::consts::{PI, TAU};
 
