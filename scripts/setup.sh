@@ -83,6 +83,10 @@ build() {
     fi
     # A folder that the user's environment names elsewhere would hide the programs from the scripts.
     export CARGO_TARGET_DIR="$REPOSITORY/target"
+    # Those of the tests, too, which can then be built without a network.
+    say "fetching the Rust packages that are missing"
+    cargo_here fetch --target "$(rustc -vV | sed -n 's/^host: //p')" ||
+        say "not all packages could be fetched (message above)"
     say "building the FMU's library: target/fmu/release"
     cargo_here build --release --lib --no-default-features --target-dir "$REPOSITORY/target/fmu"
     say "building the command line: target/release/iwan"
