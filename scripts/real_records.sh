@@ -12,7 +12,10 @@
 set -euo pipefail
 # Said before scripts/setup.sh is sourced, which sets PYTHON.
 python=${PYTHON:-.venv/bin/python}
-[ -z "${IWAN_REAL_DATA:-}" ] || export IWAN_REAL_DATA="$(realpath "$IWAN_REAL_DATA")"
+if [ -n "${IWAN_REAL_DATA:-}" ]; then
+    IWAN_REAL_DATA=$(realpath "$IWAN_REAL_DATA")
+    export IWAN_REAL_DATA
+fi
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$REPOSITORY"
 exec "$python" scripts/real_records.py --iwan "$IWAN" "$@"
