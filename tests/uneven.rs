@@ -11,9 +11,12 @@ use std::f64::consts::TAU;
 /// Seed of clock and noise; printed with every failure.
 const SEED: u64 = 20261127;
 
+/// When a sample is taken that is due at a time \[s\]; never, where it is lost.
+type Clock<'a> = &'a dyn Fn(&mut ChaCha8Rng, f64) -> Option<f64>;
+
 /// Sixty sliders and a cubic spring across them under steps of a sine, each reading where `clock` says, in noise of 50 nm; the joint
 /// itself is marched ten times as finely.
-fn record(clock: &dyn Fn(&mut ChaCha8Rng, f64) -> Option<f64>, cubic: f64) -> Record {
+fn record(clock: Clock, cubic: f64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut reached = [0.0_f64; 60];
     let mut before = 0.0;
@@ -60,7 +63,7 @@ fn an_uneven_clock_is_no_cause() {
         Some((at + 2e-3 * (random.random::<f64>() - 0.5)).max(0.0))
     };
     let lost = |random: &mut ChaCha8Rng, at: f64| (random.random::<f64>() > 0.25).then_some(at);
-    let clocks: [&dyn Fn(&mut ChaCha8Rng, f64) -> Option<f64>; 2] = [&jitter, &lost];
+    let clocks: [Clock; 2] = [&jitter, &lost];
     for (which, clock) in clocks.into_iter().enumerate() {
         let place = format!("seed {SEED}, clock {which}");
         let clean = record(clock, 0.0);

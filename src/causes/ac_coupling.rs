@@ -114,6 +114,7 @@ mod tests {
         let time: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: vec![3.0; time.len()],
             force: vec![],
             time,
@@ -130,6 +131,7 @@ mod tests {
         let time: Vec<f64> = (0..4000).map(|i| 0.001 * f64::from(i)).collect();
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: vec![3.0; time.len()],
             force: vec![],
             time,
@@ -148,6 +150,7 @@ mod tests {
         let rate = std::f64::consts::TAU * 0.2; // the corner itself
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: time.iter().map(|t| (rate * t).sin()).collect(),
             force: vec![],
             time,

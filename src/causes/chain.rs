@@ -86,6 +86,7 @@ mod tests {
             force: vec![0.0; 400],
             time: time.clone(),
             begins: 0.0,
+            test: 0,
         };
         let loaded = Trajectory {
             displacement: vec![0.0; 400],

@@ -196,6 +196,7 @@ mod tests {
         let time: Vec<f64> = (0..4000).map(|i| 1e-3 * f64::from(i)).collect();
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: time.iter().map(|t| 2e-6 * (20.0 * t).sin()).collect(),
             force: time.iter().map(|t| 50.0 * (20.0 * t).sin()).collect(),
             time,
@@ -218,6 +219,7 @@ mod tests {
     fn rest_and_short_records_have_none() {
         let still = |count| Trajectory {
             begins: 0.0,
+            test: 0,
             time: (0..count).map(|i| i as f64).collect(),
             force: vec![0.0; count],
             displacement: vec![5.0; count],

@@ -177,6 +177,7 @@ mod tests {
     fn it_is_the_sine_of_its_frequency_over_time() {
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             time: (0..=40).map(|i| -0.02 + 0.001 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 41],

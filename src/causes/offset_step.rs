@@ -201,6 +201,7 @@ mod tests {
     fn it_rises_from_nothing_to_its_height_within_a_few_samples() {
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             time: (0..101).map(|i| 5.0 + 0.1 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 101],
@@ -219,6 +220,7 @@ mod tests {
         // Of a jump in the record before this one nothing is read.
         let later = Trajectory {
             begins: 10.0,
+            test: 0,
             ..truth
         };
         assert_eq!(
@@ -268,6 +270,7 @@ mod tests {
         let force = time.iter().map(|t| (std::f64::consts::TAU * t).sin());
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             force: force.collect(),
             displacement: vec![0.0; 801],
             time,

@@ -122,6 +122,7 @@ mod tests {
         let time: Vec<f64> = (0..1000).map(|i| 0.01 * f64::from(i)).collect();
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: time.iter().map(|t| (3.0 * t).sin()).collect(),
             force: vec![],
             time,
@@ -140,6 +141,7 @@ mod tests {
     fn nothing_is_known_before_the_record() {
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             time: vec![1.0, 2.0, 3.0],
             force: vec![],
             displacement: vec![0.5, 1.5, 3.5],
@@ -174,6 +176,7 @@ mod tests {
         let wave: Vec<f64> = time.iter().map(|t| (7.0 * t).sin()).collect();
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             displacement: wave.clone(),
             force: wave,
             time,

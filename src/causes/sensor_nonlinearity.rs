@@ -180,6 +180,7 @@ mod tests {
     fn the_reading_errs_by_square_and_cube() {
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             time: vec![0.0; 3],
             force: vec![],
             displacement: vec![-2.0, 0.0, 3.0],

@@ -213,6 +213,7 @@ mod tests {
     fn it_clips_beyond_its_levels_and_leaves_the_rest() {
         let truth = Trajectory {
             begins: 0.0,
+            test: 0,
             time: vec![0.0; 5],
             force: vec![],
             displacement: vec![-3.0, -1.0, 0.5, 2.0, 4.0],

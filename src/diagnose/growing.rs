@@ -296,7 +296,10 @@ mod tests {
         };
         let two = [
             acting("viscous_damping", &[1e7]),
-            acting("displacement_drift", &[1e-8, 0.0, 0.0]),
+            acting(
+                "displacement_drift",
+                &[1e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            ),
         ];
         let two = refit(&bench.train, &plain, two.to_vec());
         let on = |wanted: f64| {

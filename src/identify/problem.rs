@@ -151,6 +151,7 @@ impl Problem {
             force: record.force.clone(),
             displacement: record.displacement.clone(),
             begins: self.records[..k].iter().map(Prepared::length).sum(),
+            test: k,
         };
         let (mut input, mut between) = true_input(
             (self.operators.form, record),

@@ -103,6 +103,8 @@ pub struct Trajectory {
     pub displacement: Vec<f64>,
     /// Length [s] of all records before this one: what happens once has one time for all of them.
     pub begins: f64,
+    /// Place of the record among all, from 0.
+    pub test: usize,
 }
 
 impl Trajectory {
