@@ -24,6 +24,16 @@ pub fn admitted(lower: f64, upper: f64) -> String {
     }
 }
 
+/// A number to five digits.
+fn roughly(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}
+
+/// An effect as the one to look at.
+fn blamed(cause: Option<&str>) -> String {
+    cause.map_or("one of its causes".to_owned(), |name| format!("`{name}`"))
+}
+
 /// Why a step or a joint was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JointError {
@@ -66,6 +76,39 @@ pub enum JointError {
         time: f64,
         /// The value refused.
         value: f64,
+    },
+    /// A force that the joint does not carry: where it softens, its force falls beyond a peak.
+    #[error(
+        "no displacement answers {} N at t = {} s: {} lets the joint carry about {} N at most; drive it in displacement, lower the load or soften it less",
+        shown(*.force),
+        shown(*.time),
+        blamed(*.cause),
+        shown(roughly(*.most))
+    )]
+    NoEquilibrium {
+        /// Time [s].
+        time: f64,
+        /// The force asked for [N].
+        force: f64,
+        /// The force from which it falls [N].
+        most: f64,
+        /// The effect that softens it most there, where one is to be told.
+        cause: Option<&'static str>,
+    },
+    /// A point that a spring law has no stable answer for: displacement would fall where force rises.
+    #[error(
+        "input {} at t = {} s: {} takes away more compliance than joint and spring have, and displacement would fall as the force rises; lower the load or stiffen it less",
+        shown(*.value),
+        shown(*.time),
+        blamed(*.cause)
+    )]
+    TurnsBack {
+        /// Time [s].
+        time: f64,
+        /// The input asked for [N or m].
+        value: f64,
+        /// The effect that takes the most, where one is to be told.
+        cause: Option<&'static str>,
     },
     /// Time running back.
     #[error("time runs back from {} s to {} s", shown(*.from), shown(*.to))]

@@ -3,9 +3,11 @@
 mod cells;
 mod laws;
 mod ledger;
+mod nearest;
 mod quadrature;
 mod root;
 mod saved;
+mod search;
 mod slopes;
 
 use super::density::Sliders;
@@ -17,11 +19,9 @@ pub(super) use cells::fine_cells;
 use laws::Laws;
 use ledger::{Ledger, Leg};
 pub use root::MOST_TRIALS;
-use root::{Excess, NoRoot, Scales, rising_root};
+use search::Found;
 use slopes::End;
 
-/// How far a search goes, in units of the network's own slip range.
-const FARTHEST: f64 = 1e15;
 /// Rounding errors of a sum, in units of the last place of its largest part.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
@@ -32,7 +32,8 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// U   = u + F_j/K_1 + Σ δ(F_j) + Σ s(F_j, step)          spring (Eq. 52) and load path
 /// F   = F_j + Σ f(U, (U − U_old)/step)                   beside the joint
 /// ```
-/// Both F(u) and U(u) rise, so either drive is one bracketed Newton search. Slip limits are those
+/// Both F(u) and U(u) rise, so either drive is one bracketed Newton search; where a law softens the joint so far
+/// that one falls, `search` refuses what has no answer. Slip limits are those
 /// of the last accepted situation. Where no time passes, rates and slip limits stay as they were: a
 /// dashpot then neither lets go nor blocks the joint, and the answer to a small jump is a small one.
 ///
@@ -147,18 +148,9 @@ impl Extended {
             self.limit
         };
         self.network.begin(limit);
-        let (slip, trials) = self.solve(step, input).map_err(|reason| {
-            let full_slip = self.network.full_slip_force(input > 0.0);
-            match reason {
-                NoRoot::OutOfReach if self.drive == Drive::Force => JointError::BeyondFullSlip {
-                    force: input,
-                    full_slip,
-                },
-                _ => JointError::OutOfReach { time, value: input },
-            }
-        })?;
-        (self.limit, self.trials) = (limit, trials);
-        self.accept(time, step, input, slip);
+        let found = self.find(time, step, input)?;
+        (self.limit, self.trials) = (limit, found.trials);
+        self.accept(time, step, input, found);
         Ok(self.answer(input))
     }
 
@@ -178,36 +170,6 @@ impl Extended {
             point.displacement = input;
         }
         point
-    }
-
-    /// The slip that answers to the input, and how many were tried.
-    fn solve(&self, step: f64, input: f64) -> Result<(f64, usize), NoRoot> {
-        let start = self.network.slip();
-        let onwards = input >= self.input;
-        let scales = Scales {
-            reach: 1e-3 * self.reach,
-            farthest: FARTHEST * self.reach,
-            digit: 0.5 * f64::EPSILON * start.abs(),
-        };
-        let mut trials = 0;
-        let root = rising_root(start, scales, |slip| {
-            trials += 1;
-            let rising = if slip == start { onwards } else { slip > start };
-            let point = self.point(slip, step, rising);
-            match self.drive {
-                Drive::Force => Excess {
-                    value: point.force - input,
-                    slope: point.stiffness,
-                    noise: ROUNDING * (point.force_noise + input.abs()),
-                },
-                Drive::Displacement => Excess {
-                    value: point.displacement - input,
-                    slope: point.stretch,
-                    noise: ROUNDING * (point.displacement_noise + input.abs()),
-                },
-            }
-        })?;
-        Ok((root, trials))
     }
 
     fn point(&self, slip: f64, step: f64, rising: bool) -> Point {
@@ -248,15 +210,11 @@ impl Extended {
         }
     }
 
-    fn accept(&mut self, time: f64, step: f64, input: f64, slip: f64) {
+    fn accept(&mut self, time: f64, step: f64, input: f64, found: Found) {
         let from = self.now;
-        if slip != from.slip {
-            self.rising = slip > from.slip;
-        } else if input != self.input {
-            self.rising = input > self.input;
-        }
-        let rising = self.rising;
-        let point = self.last_digit(self.point(slip, step, rising), slip, input);
+        let Found { slip, rising, .. } = found;
+        self.rising = rising;
+        let point = self.last_digit(found.point, slip, input);
         let loss = self.network.accept(slip);
         self.now = Situation {
             time,

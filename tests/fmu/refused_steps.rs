@@ -98,3 +98,28 @@ fn an_input_beyond_numbers_is_refused() {
         unit.ok(unit.step(0.1, 0.1));
     }
 }
+
+/// A slider of 500 N beside a spring, softened across the whole joint: it carries 3479 N.
+const SOFTENING: &str = r#"{
+  "format": "iwan-joint/1", "units": "SI",
+  "density": {"family": "sliders", "weight": [5e7], "slip_at": [1e-5], "elastic": 5e7},
+  "series_stiffness": 2e8,
+  "causes": [{"name": "cubic_stiffness", "parameters": {"cubic_compliance": 0, "across": -1e15}}]
+}"#;
+
+#[test]
+fn a_force_that_a_softening_joint_does_not_carry_is_an_error() {
+    let unit = Unit::stepping(&Resources::new(SOFTENING), Drive::Force);
+    let answers = unit.drive(FORCE, 2970.0, 0.0, 0.1);
+    for force in [3960.0, 4950.0, 9900.0, -4950.0] {
+        unit.ok(unit.set(FORCE, force));
+        let told = unit.error(unit.step(0.1, 0.1));
+        assert!(
+            told.contains("`cubic_stiffness` lets the joint carry"),
+            "{told}"
+        );
+    }
+    unit.ok(unit.set(FORCE, 2970.0));
+    unit.ok(unit.step(0.1, 0.1));
+    assert_eq!(unit.get(&[DISPLACEMENT]), answers[..1]);
+}

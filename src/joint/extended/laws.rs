@@ -110,6 +110,22 @@ impl Laws {
         plus(spring, series)
     }
 
+    /// The effect at these places whose answers fall most, where one falls.
+    pub fn falling(
+        &self,
+        places: [Place; 2],
+        slope: impl Fn(&Law, Place, &[f64]) -> f64,
+    ) -> Option<&'static str> {
+        let each = self.iter().map(|(law, memory)| {
+            let here = law.places().filter(|place| places.contains(place));
+            let sum: f64 = here.map(|place| slope(law, place, memory)).sum();
+            (sum, law.acting.effect.name())
+        });
+        each.filter(|(slope, _)| *slope < 0.0)
+            .min_by(|one, other| one.0.total_cmp(&other.0))
+            .map(|(_, name)| name)
+    }
+
     /// Shows an accepted sample to every effect.
     pub fn remember(&mut self, now: &Situation) {
         for law in &self.laws {

@@ -1,4 +1,5 @@
-//! The root of a rising function: safeguarded Newton that survives kinks, jumps and plateaus.
+//! The root of a rising function: safeguarded Newton that survives kinks, jumps and plateaus, and says so where the
+//! function does not rise.
 
 /// A rising function at one point.
 #[derive(Debug, Clone, Copy)]
@@ -9,6 +10,15 @@ pub(super) struct Excess {
     pub slope: f64,
     /// Below this, `value` is rounding.
     pub noise: f64,
+    /// Rounding of all lengths that `value` is made of, in units of the argument.
+    pub blur: f64,
+}
+
+impl Excess {
+    /// True where a search that nothing encloses may end: a step of Newton's would move rounding alone.
+    fn is_rounding(&self) -> bool {
+        self.value.abs() <= (DIGITS * self.noise).max(DIGITS * self.blur * self.slope.abs())
+    }
 }
 
 /// Lengths of a search.
@@ -29,12 +39,23 @@ pub(super) enum NoRoot {
     OutOfReach,
     /// The function has no value.
     NotANumber,
+    /// Signs contradict each other, as where the function falls, or the trials are used up.
+    NotRising,
+    /// From here on the function falls, short of the target.
+    Falls {
+        /// The last argument at which it rises, to rounding.
+        at: f64,
+        /// The first at which it falls.
+        beyond: f64,
+    },
 }
 
 /// Growth of the reach while the root is not yet enclosed.
 const GROWTH: f64 = 4.0;
 /// Newton steps that may fall short before the reach takes over.
 const PATIENCE: usize = 6;
+/// Units of rounding that two ways to the same point may lie apart by.
+const DIGITS: f64 = 32.0;
 /// Trials of the slip, within a step of a joint with effects, before the search is given up;
 /// halving alone needs about 60.
 pub const MOST_TRIALS: usize = 400;
@@ -42,7 +63,8 @@ pub const MOST_TRIALS: usize = 400;
 /// The x where `excess` crosses zero, to rounding: from `start`, by Newton's steps while they
 /// help, by a growing `reach` while nothing encloses the root, by halving where Newton fails.
 /// Steps within `digit` are none; gives up beyond `farthest` from `start`, and never asks `excess`
-/// more than [`MOST_TRIALS`] times.
+/// more than [`MOST_TRIALS`] times. Where the function falls it may be misled: what ends a search without
+/// being a root is [`NoRoot::NotRising`], and [`nearest_root`](super::nearest::nearest_root) may know more.
 pub(super) fn rising_root(
     start: f64,
     Scales {
@@ -54,6 +76,8 @@ pub(super) fn rising_root(
 ) -> Result<f64, NoRoot> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let (mut best, mut least) = (start, f64::INFINITY);
+    let finest = f64::EPSILON * reach;
+    let (mut rounding, mut digits) = (false, finest);
     let mut point = start;
     for evaluation in 0..MOST_TRIALS {
         let here = excess(point);
@@ -66,6 +90,8 @@ pub(super) fn rising_root(
         let helped = here.value.abs() <= 0.5 * least;
         if here.value.abs() < least {
             (best, least) = (point, here.value.abs());
+            rounding = here.is_rounding();
+            digits = finest.max(DIGITS * here.blur);
         }
         if here.value < 0.0 {
             low = point
@@ -73,13 +99,13 @@ pub(super) fn rising_root(
             high = point
         }
         let newton = point - here.value / here.slope;
-        if (newton - point).abs() <= digit {
+        if (newton - point).abs() <= digit && here.slope.is_finite() {
             return Ok(point);
         }
         point = if low.is_finite() && high.is_finite() {
             let middle = low + 0.5 * (high - low);
             if middle <= low || middle >= high {
-                return Ok(best);
+                break;
             }
             if newton > low && newton < high && (helped || evaluation < PATIENCE) {
                 newton
@@ -105,7 +131,14 @@ pub(super) fn rising_root(
             point + step
         };
     }
-    Ok(best)
+    // A jump across the target is enclosed to the last digits, in which rounding may turn low and high about.
+    let digits = digits.max(f64::EPSILON * low.abs().max(high.abs()));
+    let enclosed = (high - low).abs() <= digits && (best - low).abs() <= digits;
+    if enclosed || rounding {
+        Ok(best)
+    } else {
+        Err(NoRoot::NotRising)
+    }
 }
 
 #[cfg(test)]
@@ -128,6 +161,7 @@ mod tests {
             value: value - 1.5,
             slope,
             noise: 1e-16,
+            blur: 0.0,
         }
     }
 
@@ -149,6 +183,7 @@ mod tests {
                 value: x.clamp(-1.0, 1.0) - 2.0,
                 slope,
                 noise: 1e-16,
+                blur: 0.0,
             }
         });
         assert_eq!(root, Err(NoRoot::OutOfReach));
@@ -161,6 +196,7 @@ mod tests {
             value: if x < jump { -1.0 + x } else { 1.0 + x },
             slope: 1.0,
             noise: 1e-16,
+            blur: 0.0,
         });
         assert!(
             root.is_ok_and(|x| (x - jump).abs() <= 2.0 * f64::EPSILON),
@@ -178,6 +214,7 @@ mod tests {
                 value: 1e300 * (x - 1e11).signum(),
                 slope: 1e300,
                 noise: 0.0,
+                blur: 0.0,
             }
         });
         assert!(asked > 40 && asked <= MOST_TRIALS, "{asked}");
@@ -189,6 +226,7 @@ mod tests {
             value: f64::NAN,
             slope: 1.0,
             noise: 0.0,
+            blur: 0.0,
         });
         assert_eq!(root, Err(NoRoot::NotANumber));
     }
