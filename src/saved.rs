@@ -21,6 +21,7 @@
 mod entry;
 mod origin;
 mod reading;
+mod repeated;
 mod writing;
 
 use std::collections::BTreeMap;
@@ -132,6 +133,18 @@ pub enum SavedError {
         column: usize,
         /// What the JSON parser found.
         reason: String,
+    },
+    /// A name that stands twice in one object: which of the two counts nobody can know.
+    #[error("{file}:{line}:{column}: {place} is there twice: keep one")]
+    Repeated {
+        /// File as named by the caller.
+        file: String,
+        /// JSON path, e.g. `$.series_stiffness`.
+        place: String,
+        /// Line of the second, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
     },
     /// An entry that must be there.
     #[error("{file}: {place} is missing: {needed}")]

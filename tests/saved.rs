@@ -242,6 +242,56 @@ fn refusals_name_place_value_and_way_out() {
             "\"slip_force\": [1, null,",
             "$.intervals.slip_force is [1,null,",
         ),
+        (
+            "\"causes\": []",
+            "\"causes\": [], \"cause\": []",
+            "$.cause is []: no such name here; known are format, version",
+        ),
+        (
+            "\"series_stiffness\": 3.5",
+            "\"serie_stiffness\": 3.5",
+            "$.serie_stiffness is 3.5: no such name here",
+        ),
+        (
+            "\"causes\": []",
+            "\"causes\": [{\"name\": \"viscous_damping\", \"parameters\": {\"coefficient\": 1}, \"enabled\": false}]",
+            "$.causes[0].enabled is false: no such name here; known are name, parameters",
+        ),
+        (
+            "\"series_stiffness\": 3.5,\n",
+            "\"series_stiffness\": 3.5,\n  \"series_stiffness\": 4,\n",
+            ":13:3: $.series_stiffness is there twice",
+        ),
+        (
+            "\"slip_force\": 1000.0",
+            "\"slip_force\": 1000.0, \"slip_force\": 1000.0",
+            "$.density.slip_force is there twice: keep one",
+        ),
+        (
+            "\"date\"",
+            "\"dated\"",
+            "$.provenance.dated is \"2024-05-01\": no such name here",
+        ),
+        (
+            "\"largest_force\"",
+            "\"force\"",
+            "$.provenance.records[0].force is 0.",
+        ),
+        (
+            "\"held_out_rms_ratio\"",
+            "\"ratio_held_out\"",
+            "$.provenance.verdict.ratio_held_out is 0.3",
+        ),
+        (
+            "\"interval\": [0.25, null]",
+            "\"interval\": [0.25, 0.2]",
+            "$.provenance.verdict.interval is [0.25,0.2]: the lower bound comes first",
+        ),
+        (
+            "\"slip_force\": [null,",
+            "\"slip_force\": [0.5,",
+            "$.intervals.slip_force is [0.5,0.3",
+        ),
     ];
     for (from, to, expected) in cases {
         match read(&changed(from, to), "some/joint.json") {
@@ -272,6 +322,33 @@ fn refusals_name_place_value_and_way_out() {
         read("", "x"),
         Err(SavedError::Syntax { line: 1, .. })
     ));
+}
+
+#[test]
+fn a_span_has_both_its_numbers_or_none() {
+    let whole = write(&saved(sliders(), 3.5, vec![]));
+    for (lacks, keeps) in [
+        ("duration", "sample_interval"),
+        ("sample_interval", "duration"),
+    ] {
+        let mut text: serde_json::Value = serde_json::from_str(&whole).unwrap();
+        let record = text["provenance"]["records"][0].as_object_mut().unwrap();
+        assert!(record.remove(lacks).is_some());
+        let message = read(&text.to_string(), "x").unwrap_err().to_string();
+        let expected = format!("$.provenance.records[0].{lacks} is missing: give `duration`");
+        assert!(message.contains(&expected), "{message}");
+        let record = text["provenance"]["records"][0].as_object_mut().unwrap();
+        assert!(record.remove(keeps).is_some());
+        let read = read(&text.to_string(), "x").unwrap();
+        assert_eq!(read.provenance.records[0].span, None);
+    }
+}
+
+#[test]
+fn a_verdict_without_an_interval_may_say_null() {
+    let text = changed("\"interval\": [0.25, null]", "\"interval\": null");
+    let verdict = read(&text, "x").unwrap().provenance.verdict.unwrap();
+    assert_eq!(verdict.interval, None);
 }
 
 #[test]

@@ -4,9 +4,19 @@ use super::entry::Entry;
 use super::{Judgement, Provenance, RecordUsed, SavedError, Span};
 use std::collections::BTreeMap;
 
+/// What may be said of a record.
+const OF_RECORD: [&str; 6] = [
+    "name",
+    "samples",
+    "sha256",
+    "duration",
+    "sample_interval",
+    "largest_force",
+];
+
 /// Records, date, tool and verdict.
 pub fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
-    entry.object()?;
+    entry.only(&["records", "date", "tool", "remark", "verdict"])?;
     let words = |name: &str| {
         entry
             .find(name)
@@ -22,6 +32,7 @@ pub fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
     };
     if let Some(records) = entry.find("records") {
         for record in records.items()? {
+            record.only(&OF_RECORD)?;
             let samples = record.get("samples", "the count of samples")?;
             let count = samples
                 .value
@@ -44,14 +55,14 @@ pub fn provenance(entry: &Entry) -> Result<Provenance, SavedError> {
 
 /// Both or none: a duration without a distance of samples says nothing of the rate.
 fn span(record: &Entry) -> Result<Option<Span>, SavedError> {
-    let (duration, interval) = (record.find("duration"), record.find("sample_interval"));
-    match (duration, interval) {
-        (Some(duration), Some(interval)) => Ok(Some(Span {
-            duration: positive(&duration, "seconds")?,
-            sample_interval: positive(&interval, "seconds")?,
-        })),
-        _ => Ok(None),
+    const BOTH: &str = "give `duration` and `sample_interval`, or neither";
+    if record.find("duration").is_none() && record.find("sample_interval").is_none() {
+        return Ok(None);
     }
+    Ok(Some(Span {
+        duration: positive(&record.get("duration", BOTH)?, "seconds")?,
+        sample_interval: positive(&record.get("sample_interval", BOTH)?, "seconds")?,
+    }))
 }
 
 fn positive(entry: &Entry, of: &str) -> Result<f64, SavedError> {
@@ -62,13 +73,15 @@ fn positive(entry: &Entry, of: &str) -> Result<f64, SavedError> {
 }
 
 fn judgement(entry: &Entry) -> Result<Judgement, SavedError> {
-    let ratio = entry.find("held_out_rms_ratio");
-    let ratio = ratio.filter(|found| !found.value.is_null());
+    entry.only(&["word", "held_out_rms_ratio", "interval"])?;
+    let given = |name| entry.find(name).filter(|found| !found.value.is_null());
     let word = entry.get("word", "the verdict's word")?.text()?.into();
     Ok(Judgement {
         word,
-        held_out_rms_ratio: ratio.map(|found| found.number()).transpose()?,
-        interval: entry.find("interval").map(|e| bounds(&e)).transpose()?,
+        held_out_rms_ratio: given("held_out_rms_ratio")
+            .map(|found| found.number())
+            .transpose()?,
+        interval: given("interval").map(|e| bounds(&e)).transpose()?,
     })
 }
 
@@ -82,7 +95,7 @@ pub fn intervals(entry: &Entry) -> Result<BTreeMap<String, (f64, f64)>, SavedErr
     Ok(intervals)
 }
 
-/// Two numbers; null is infinity.
+/// Two numbers, the lower first; null is infinity.
 fn bounds(entry: &Entry) -> Result<(f64, f64), SavedError> {
     let [low, high] = entry
         .items()?
@@ -98,5 +111,8 @@ fn bounds(entry: &Entry) -> Result<(f64, f64), SavedError> {
     } else {
         high.number()?
     };
+    if low > high {
+        return Err(entry.unusable("the lower bound comes first"));
+    }
     Ok((low, high))
 }

@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::entry::Entry;
 use super::origin::{intervals, provenance};
+use super::repeated::repeated;
 use super::{FORMAT, Provenance, SavedError, SavedJoint};
 use crate::causes;
 use crate::joint::error::admitted;
@@ -36,6 +37,14 @@ fn read_with(
         column: error.column(),
         reason: error.to_string(),
     })?;
+    if let Some(twice) = repeated(text) {
+        return Err(SavedError::Repeated {
+            file: path.into(),
+            place: twice.place,
+            line: twice.line,
+            column: twice.column,
+        });
+    }
     let root = Entry {
         file: path,
         place: "$".into(),
@@ -46,6 +55,7 @@ fn read_with(
     if format.text()? != FORMAT {
         return Err(format.unusable("this program reads \"iwan-joint/1\""));
     }
+    root.only(&ENTRIES)?;
     let units = root.get("units", "add \"units\": \"SI\"")?;
     if units.text()? != "SI" {
         return Err(units.unusable("give all parameters in SI units and say \"SI\""));
@@ -80,6 +90,18 @@ fn read_with(
             .map_or(Ok(BTreeMap::new()), |e| intervals(&e))?,
     })
 }
+
+/// All that a file may hold.
+const ENTRIES: [&str; 8] = [
+    "format",
+    "version",
+    "units",
+    "density",
+    "series_stiffness",
+    "causes",
+    "provenance",
+    "intervals",
+];
 
 fn density(entry: &Entry) -> Result<Density, SavedError> {
     let family = entry.get("family", FAMILIES)?;
@@ -141,6 +163,7 @@ fn effects(
         {
             return Err(name.unusable("it is there twice: keep one"));
         }
+        entry.only(&["name", "parameters"])?;
         let glossary = effect.parameters();
         let given = entry.get("parameters", &names(glossary))?;
         let known: Vec<&str> = glossary.iter().map(|parameter| parameter.name).collect();
