@@ -292,6 +292,31 @@ fn a_force_beyond_full_slip_is_refused_at_its_line() {
     );
 }
 
+/// A slider of 500 N beside a spring, and a cube across the joint that softens it.
+#[test]
+fn a_force_that_a_softening_joint_does_not_carry_is_refused_at_its_line() {
+    let folder = Folder::new("softening");
+    let softening = r#"[{"name": "cubic_stiffness",
+        "parameters": {"cubic_compliance": 0, "across": -1e15}}]"#;
+    let joint = JOINT
+        .replace("\"elastic\": 0.0", "\"elastic\": 5e7")
+        .replace("[1e6, 1e6]", "[5e7]")
+        .replace("[1e-5, 9e-5]", "[1e-5]")
+        .replace("1e7", "2e8")
+        .replace("[]", softening);
+    folder.put("joint.json", joint.as_bytes());
+    folder.put("load.csv", b"t [s],F [N]\n0,0\n1,2970\n2,4950\n3,9900\n");
+    let words = [
+        "load.csv, line 4, column 2 `F [N]`",
+        "no displacement answers 4950 N at t = 2 s",
+        "`cubic_stiffness` lets the joint carry about 3479.2 N",
+    ];
+    folder.assert_refuses(
+        &["simulate", "joint.json", "load.csv", "-o", "new.csv"],
+        &words,
+    );
+}
+
 #[test]
 fn a_damaged_joint_is_refused() {
     let folder = Folder::new("joint");
@@ -323,6 +348,11 @@ fn a_damaged_joint_is_refused() {
     );
     let unknown = JOINT.replace("[]", r#"[{"name": "loose_bolt", "parameters": {}}]"#);
     refuse(unknown.as_bytes(), &["$.causes", "loose_bolt"]);
+    let twice = JOINT.replace("\"causes\"", "\"series_stiffness\": 1e8, \"causes\"");
+    refuse(
+        twice.as_bytes(),
+        &["json:6:3: $.series_stiffness is there twice"],
+    );
 }
 
 /// The results of a diagnosis have fixed names, under which something else may stand.
