@@ -187,11 +187,14 @@ impl Cause for DisplacementDrift {
         let as_a_root = [10.0 * rate, 100.0 / scale.duration(), 2.0];
         let alike = |_: usize| 0.0;
         let mut starts = vec![of(steady, &alike), of(as_a_root, &alike)];
+        // As far in every test, and there and back.
+        let as_far = |k: usize| rate * (scale.lengths[0] / scale.lengths[k] - 1.0);
+        let back = |k: usize| if k % 2 == 1 { -2.0 * rate } else { 0.0 };
+        if scale.lengths.iter().any(|l| *l != scale.lengths[0]) {
+            starts.push(of(steady, &as_far));
+        }
         if scale.lengths.len() > 1 {
-            // As far in every test, and there and back.
-            let as_far = |k: usize| rate * (scale.lengths[0] / scale.lengths[k] - 1.0);
-            let back = |k: usize| if k % 2 == 1 { -2.0 * rate } else { 0.0 };
-            starts.extend([of(steady, &as_far), of(steady, &back)]);
+            starts.push(of(steady, &back));
         }
         starts
     }
