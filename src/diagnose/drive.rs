@@ -1,9 +1,9 @@
 //! The noise of the channel that drives, of which the joint felt nothing.
 
 use super::judged_channel::compliance_ratio;
-use crate::identify::Form;
+use crate::identify::{Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::calm::{calmed, fastest};
+use crate::record::calm::{calmed, fastest, slow};
 use crate::record::cycles::span;
 use crate::record::mains::beneath_mains;
 use crate::record::resolution::resolution;
@@ -13,35 +13,176 @@ use crate::record::resolution::resolution;
 /// pass for a cause at a few alarms; to smooth costs something as well, where a drive turns sharply.
 const COUNTS: f64 = 300.0;
 
-/// The records with a smooth driving channel where its noise counts: sliders that stick answer noise with their whole
-/// stiffness, and sliding ones are pushed back by it; taken for the joint's, both look like causes. A hum of the mains
-/// is no noise: it is a cause's to explain.
+/// Correlation of neighbours in the fast part of what the baseline leaves from which the judged channel's noise is slow.
+const SLOW: f64 = 0.3;
+
+/// Share of the median step of a drive from which its noise pushes sliders back that slide.
+const PUSHES: f64 = 0.5;
+
+/// The records without the noise of the driving channel where it counts: sliders that stick answer it with their whole
+/// stiffness; taken for the joint's, that looks like causes. A hum of the mains is no noise: it is a cause's to explain.
+///
+/// What the baseline leaves tells of that noise, and is taken off by as much as both go together, see [`apart`]. Where
+/// what is left of it would push sliders back between samples, the drive is smoothed as well.
 pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
-    let calm = |record: &Record| {
-        let (drive, judged, steepest) = match form {
-            Form::Play => (&record.force, &record.displacement, 1.0),
-            Form::Stop => (
-                &record.displacement,
-                &record.force,
-                compliance_ratio(record),
-            ),
-        };
-        let noise = match &record.time {
-            Some(time) => fastest(drive).min(beneath_mains(time, drive).deviation),
-            None => fastest(drive),
-        };
-        let answered = noise * steepest * span(judged) / span(drive);
-        let share = answered / fastest(judged).max(resolution(judged));
-        if share * share * judged.len() as f64 <= COUNTS {
+    let loud: Vec<Option<f64>> = records.iter().map(|r| drive_noise(form, r)).collect();
+    if loud.iter().all(Option::is_none) {
+        return records.to_vec();
+    }
+    let problem = Problem::new(form, records);
+    let residuals = baseline(&problem).residuals(&problem);
+    let both = records.iter().zip(&residuals).zip(loud);
+    both.map(|((record, residual), noise)| {
+        let Some(noise) = noise else {
             return record.clone();
-        }
-        let calm = calmed(drive, noise);
+        };
         let mut record = record.clone();
-        match form {
-            Form::Play => record.force = calm,
-            Form::Stop => record.displacement = calm,
-        }
+        let drive = match form {
+            Form::Play => &mut record.force,
+            Form::Stop => &mut record.displacement,
+        };
+        let Some((read, left)) = apart(drive, residual, noise) else {
+            *drive = calmed(drive, noise);
+            return record;
+        };
+        *drive = match left > PUSHES * usual_step(&calmed(&read, left)) {
+            true => calmed(&read, left),
+            false => read,
+        };
+        record.noisy_drive = true;
         record
+    })
+    .collect()
+}
+
+/// Noise of the channel that drives, where it counts.
+fn drive_noise(form: Form, record: &Record) -> Option<f64> {
+    let (drive, judged) = form.channels(record);
+    let steepest = match form {
+        Form::Play => 1.0,
+        Form::Stop => compliance_ratio(record),
     };
-    records.iter().map(calm).collect()
+    let noise = match &record.time {
+        Some(time) => fastest(drive).min(beneath_mains(time, drive).deviation),
+        None => fastest(drive),
+    };
+    let answered = noise * steepest * span(judged) / span(drive);
+    let share = answered / fastest(judged).max(resolution(judged));
+    (share * share * judged.len() as f64 > COUNTS).then_some(noise)
+}
+
+/// Median magnitude of a channel's steps.
+fn usual_step(channel: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = channel.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let middle = steps.len() / 2;
+    match steps.is_empty() {
+        true => 0.0,
+        false => *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
+    }
+}
+
+/// Differences of sixth order: of a load nothing is left in them.
+fn fastest_part(channel: &[f64]) -> Vec<f64> {
+    let once = |values: Vec<f64>| values.windows(2).map(|w| w[1] - w[0]).collect();
+    (0..6).fold(channel.to_vec(), |values, _| once(values))
+}
+
+/// The drive without what a model's residual tells of its noise, and the noise that is left.
+///
+/// Of a drive `x + e` a model of the slope K leaves `r = f − K e`, with f the noise of the judged channel. The estimate of
+/// e with the least square error is `β r`, `β = −K var(e)/var(r)`, and what it leaves of e does not go with what the model
+/// then leaves: else whatever follows the drive's own noise, its acceleration first of all, explains a part of that.
+/// K is told by the fastest part of both channels, and the fast part of r alone is taken off: what a load or a cause does
+/// in more than some samples is no noise. `None` where the judged channel's own noise is slow: other samples of r tell more
+/// of e then, and a smooth drive is enough.
+fn apart(drive: &[f64], residual: &[f64], noise: f64) -> Option<(Vec<f64>, f64)> {
+    let less = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let (slow, kept) = slow(residual);
+    let left = less(residual, &slow);
+    let (of_drive, of_left) = (fastest_part(drive), fastest_part(residual));
+    let (square, both) = (product(&of_drive, &of_drive), product(&of_drive, &of_left));
+    let variance = product(&left, &left) / kept / left.len() as f64;
+    let alike = product(&left[1..], &left[..left.len() - 1]) / product(&left, &left);
+    // Written so that what is no number is none.
+    let told = square > 0.0 && variance > 0.0 && alike < SLOW;
+    if !told {
+        return None;
+    }
+    let slope = both / square;
+    let by = slope * noise * noise / variance;
+    let read = drive.iter().zip(&left).map(|(x, r)| x - by / kept * r);
+    let left = noise * (1.0 - slope * by).clamp(0.0, 1.0).sqrt();
+    Some((read.collect(), left))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::noise::tests::drawn;
+
+    /// A sine of 60 samples a cycle in unit noise, and what a model of slope 2 leaves of a channel with noise of its own,
+    /// white or with neighbours that go together.
+    fn read(alike: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+        let mut random = drawn(20_261_127);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let errors: Vec<f64> = (0..4000).map(|_| noise()).collect();
+        let drive = errors.iter().enumerate();
+        let drive = drive
+            .map(|(i, e)| 1000.0 * (0.1 * i as f64).sin() + e)
+            .collect();
+        let mut own = 0.0;
+        let left = errors.iter().map(|e| {
+            own = alike * own + 2.0 * (1.0 - alike * alike).sqrt() * noise();
+            own - 2.0 * e
+        });
+        let left = left.collect();
+        (drive, left, errors)
+    }
+
+    /// Of two channels as loud as each other half the variance of the drive's noise is told, and what is left of it does not
+    /// go with what the model leaves then.
+    #[test]
+    fn what_is_left_of_a_drive_s_noise_goes_with_nothing() {
+        let (drive, left, errors) = read(0.0);
+        let (read, noise) = apart(&drive, &left, 1.0).unwrap();
+        let taken: Vec<f64> = drive.iter().zip(&read).map(|(x, y)| x - y).collect();
+        let still: Vec<f64> = errors.iter().zip(&taken).map(|(e, t)| e - t).collect();
+        let then: Vec<f64> = left.iter().zip(&taken).map(|(r, t)| r + 2.0 * t).collect();
+        let mean = |a: &[f64], b: &[f64]| {
+            let both = a.iter().zip(b).map(|(a, b)| a * b);
+            both.sum::<f64>() / a.len() as f64
+        };
+        let correlation = |a: &[f64], b: &[f64]| mean(a, b) / (mean(a, a) * mean(b, b)).sqrt();
+        assert!(correlation(&errors, &left) < -0.65);
+        // The slow part of what is left, a ninth of its variance, is not taken off.
+        assert!(
+            correlation(&still, &then).abs() < 0.2,
+            "{}",
+            correlation(&still, &then)
+        );
+        assert!(
+            (mean(&still, &still) - 0.5).abs() < 0.1,
+            "{}",
+            mean(&still, &still)
+        );
+        assert!((noise * noise - 0.5).abs() < 0.1, "{noise}");
+    }
+
+    #[test]
+    fn slow_noise_of_the_judged_channel_tells_nothing_sample_by_sample() {
+        let (drive, left, _) = read(0.95);
+        let slow: Vec<f64> = left.iter().map(|r| 20.0 * r).collect();
+        let (_, white, _) = read(0.0);
+        assert!(apart(&drive, &white, 1.0).is_some());
+        let mut level = 0.0;
+        let slow: Vec<f64> = slow
+            .iter()
+            .map(|r| {
+                level = 0.9 * level + r;
+                level
+            })
+            .collect();
+        assert_eq!(apart(&drive, &slow, 1.0), None);
+    }
 }

@@ -122,7 +122,7 @@ pub fn diagnose_with(
     }
     if calm != records {
         findings.notes.push(
-            "The driving channel is noisy: it was smoothed where it is smooth within its noise, which the joint did not feel."
+            "The driving channel is noisy, which the joint did not feel: it was read with what the baseline leaves, or smoothed where it is smooth within its noise."
                 .to_string(),
         );
     }

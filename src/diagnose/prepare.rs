@@ -69,7 +69,8 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         .iter()
         .map(|record| resolution(form.channels(record).1))
         .collect();
-    let noise = noise(&whole, &first, &resolution);
+    let loud: Vec<bool> = records.iter().map(|r| r.noisy_drive).collect();
+    let noise = noise(&whole, &first, (&resolution, &loud));
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
@@ -265,7 +266,7 @@ fn calmer(channel: Option<Noise>, residual: Option<Noise>) -> Option<Noise> {
 
 /// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
 /// by the other records, else from the fastest variations of the baseline's residual.
-fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
+fn noise(problem: &Problem, first: &Fit, (least, loud): (&[f64], &[bool])) -> Vec<Noise> {
     let mut residuals = first.residuals(problem);
     // A hum does not repeat with the cycles and is no noise.
     let hums = mains_phase::loudest_mains(problem, first);
@@ -283,7 +284,12 @@ fn noise(problem: &Problem, first: &Fit, least: &[f64]) -> Vec<Noise> {
         .enumerate()
         .map(|(k, residual)| {
             let (input, judged) = (problem.channels(k).0, &hum_free[k]);
-            let repeated = calmer(from_repeats(input, judged), from_repeats(input, residual));
+            let of_residual = from_repeats(input, residual);
+            let repeated = match loud[k] {
+                // What noise of the drive does to a model does so in every model.
+                true => of_residual,
+                false => calmer(from_repeats(input, judged), of_residual),
+            };
             let found = repeated.or_else(|| from_steady_changes(input, residual));
             found.filter(|n| !n.holds_a_change(residual))
         })

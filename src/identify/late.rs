@@ -111,6 +111,7 @@ mod tests {
             temperature: None,
             acceleration: None,
             straight: false,
+            noisy_drive: false,
             alone: Vec::new(),
         };
         Prepared::new(&record, Form::Stop)

@@ -32,6 +32,20 @@ pub fn calmed(channel: &[f64], noise: f64) -> Vec<f64> {
     (0..channel.len()).map(calm).collect()
 }
 
+/// The channel as parabolas over the widest neighbourhood say it is, itself at its ends; and what is left of the variance of
+/// white noise about them.
+pub fn slow(channel: &[f64]) -> (Vec<f64>, f64) {
+    let widest = WIDTHS[WIDTHS.len() - 1];
+    let mut slow = channel.to_vec();
+    let mut kept = 1.0;
+    for (i, about) in channel.windows(2 * widest + 1).enumerate() {
+        let (value, error) = parabola(about);
+        slow[i + widest] = value;
+        kept = 1.0 - error * error;
+    }
+    (slow, kept)
+}
+
 /// Differences of which the smallest noise is taken.
 const ORDERS: std::ops::RangeInclusive<u32> = 3..=8;
 
