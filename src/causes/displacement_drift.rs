@@ -109,7 +109,7 @@ const AT_ONCE: f64 = 5.0;
 const APART: f64 = -0.1;
 
 /// Integral of the rate that is left of 1, `(1 + q λ t)^(−1/q)`.
-fn gone(time: f64, fading: f64, tail: f64) -> f64 {
+pub(crate) fn gone(time: f64, fading: f64, tail: f64) -> f64 {
     if fading <= 0.0 {
         return time;
     }

@@ -6,7 +6,7 @@ mod chain;
 mod clearance;
 mod creep;
 mod cubic_stiffness;
-mod displacement_drift;
+pub(crate) mod displacement_drift;
 mod fixture_inertia;
 mod free_play;
 mod joint_opening;

@@ -5,6 +5,7 @@ use crate::identify::{Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::calm::{calmed, fastest, slow};
 use crate::record::cycles::span;
+use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
 use crate::record::resolution::resolution;
 
@@ -45,8 +46,9 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             *drive = calmed(drive, noise);
             return record;
         };
-        *drive = match left > PUSHES * usual_step(&calmed(&read, left)) {
-            true => calmed(&read, left),
+        let calm = calmed(&read, left);
+        *drive = match left > PUSHES * usual_step(&calm) {
+            true => calm,
             false => read,
         };
         record.noisy_drive = true;
@@ -73,12 +75,7 @@ fn drive_noise(form: Form, record: &Record) -> Option<f64> {
 
 /// Median magnitude of a channel's steps.
 fn usual_step(channel: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = channel.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    let middle = steps.len() / 2;
-    match steps.is_empty() {
-        true => 0.0,
-        false => *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
-    }
+    median(channel.windows(2).map(|w| (w[1] - w[0]).abs()).collect())
 }
 
 /// Differences of sixth order: of a load nothing is left in them.

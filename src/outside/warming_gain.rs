@@ -2,8 +2,8 @@
 
 use super::Outsider;
 use crate::causes::Scale;
+use crate::causes::displacement_drift::gone;
 use crate::joint::effect::{Effect, Place, Trajectory};
-use crate::joint::elementary::expm1;
 use crate::joint::parameters::Parameter;
 
 /// The sensor reads `U_meas = U (1 + g)`, `ġ = v exp(−λ t)` over all records, one after the other.
@@ -53,12 +53,9 @@ impl Effect for WarmingGain {
     }
     fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
         let start = truth.time.first().copied().unwrap_or(0.0) - truth.begins;
-        let gain = |time: f64| match values[1] > 0.0 {
-            true => values[0] * -expm1(-values[1] * time) / values[1],
-            false => values[0] * time,
-        };
+        let gain = |t: &f64| values[0] * gone(t - start, values[1], 0.0);
         let samples = truth.time.iter().zip(&truth.displacement);
-        samples.map(|(t, u)| u * gain(t - start)).collect()
+        samples.map(|(t, u)| u * gain(t)).collect()
     }
 }
 

@@ -72,9 +72,13 @@ fn counted(time: &[f64]) -> Vec<f64> {
     (0..time.len()).map(|i| i as f64).collect()
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// The upper median; zero of no values.
+pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+    match values.is_empty() {
+        true => 0.0,
+        false => *values.select_nth_unstable_by(middle, f64::total_cmp).1,
+    }
 }
 
 /// Median distance of neighbours.

@@ -1,6 +1,7 @@
 //! What an input does between its samples: peaks that fall there, kinks where its rate jumps.
 
 use super::cycles::turning_points;
+use super::evened::median;
 use super::rounded::vertex;
 
 /// A point of the input between two samples.
@@ -167,11 +168,11 @@ fn bend(channel: &[f64], i: usize) -> f64 {
 
 /// Median of a channel's bends.
 fn usual_bend(channel: &[f64]) -> f64 {
-    let mut all: Vec<f64> = (1..channel.len() - 1)
-        .map(|i| bend(channel, i).abs())
-        .collect();
-    let middle = all.len() / 2;
-    *all.select_nth_unstable_by(middle, f64::total_cmp).1
+    median(
+        (1..channel.len() - 1)
+            .map(|i| bend(channel, i).abs())
+            .collect(),
+    )
 }
 
 /// First samples of the intervals in or next to which two straight stretches meet.
