@@ -147,7 +147,7 @@ const MANY: usize = 30_000;
 const TAKES: f64 = 0.25;
 
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
-/// structure in it: without, the noise is larger than it was taken for. Several that one law outside the catalogue stands for
+/// structure in it: without, the noise is larger than it was taken for. Those that one law outside the catalogue stands for
 /// are taken back as well.
 fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
@@ -157,15 +157,14 @@ fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let noise = rows * bench.most_left().unwrap_or(1.0);
     let beyond = (found.baseline.misfit - noise).max(left.share * rows);
     let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
-    if takes_little && left.is_seen() || outsiders::one_does_it_all(bench, &found, timed) {
-        return Found {
-            best: found.baseline.clone(),
-            rivals: Vec::new(),
-            evidence: Vec::new(),
-            ..found
-        };
+    let all = (0..found.best.effects.len()).collect();
+    match takes_little && left.is_seen() {
+        true => found.without(bench, all),
+        false => {
+            let stood_for = outsiders::stood_for(bench, &found, timed);
+            found.without(bench, stood_for)
+        }
     }
-    found
 }
 
 fn assemble(
@@ -175,7 +174,9 @@ fn assemble(
     against: Vec<String>,
 ) -> Result<(Findings, Found, Fit), JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
+    let named = found.best.effects.len();
     let sober = sober(bench, found, timed);
+    let taken_back = sober.best.effects.len() < named;
     let (found, whole_base) = rayon::join(
         || sober.clone().smoothed(bench),
         || smoothed(&bench.whole, &baseline(&bench.whole)),
@@ -216,7 +217,7 @@ fn assemble(
     let mut doubles = against;
     doubles.extend(outsiders::doubles(&whole, &modelled));
     // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
-    doubles.extend(outsiders::outsiders(bench, &sober, timed));
+    doubles.extend(outsiders::outsiders(bench, &sober, (timed, taken_back)));
     let verdict = verdict::verdict(
         named.then(|| {
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0

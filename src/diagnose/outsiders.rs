@@ -25,22 +25,30 @@ pub fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
 }
 
 /// Laws outside the catalogue that explain the records better than the set that was found, in the place of one of
-/// its causes and beside the others; where nothing was found, than the baseline.
-pub fn outsiders(bench: &Bench, found: &Found, timed: bool) -> Vec<String> {
+/// its causes and beside the others, or beside all of them, where they leave structure or it is told that there is more;
+/// where nothing was found, than the baseline.
+pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) -> Vec<String> {
     let best = &found.best;
-    let places: Vec<Option<usize>> = match best.effects.is_empty() {
-        true if !leaves_structure(&bench.train, best) => Vec::new(),
-        true => vec![None],
-        false => (0..best.effects.len()).map(Some).collect(),
+    let more = beside || leaves_structure(&bench.train, best);
+    let in_places = (0..best.effects.len()).map(Some);
+    let places: Vec<Option<usize>> = in_places.chain(more.then_some(None)).collect();
+    let asked = |one: &dyn Outsider, place: Option<usize>| {
+        place.is_some() || best.effects.is_empty() || one.stands_for_one()
     };
     let tried: Vec<(Option<usize>, &dyn Outsider)> = usable(timed)
         .into_iter()
         .flat_map(|one| places.iter().map(move |place| (*place, one)))
+        .filter(|(place, one)| asked(*one, *place))
         .collect();
-    tried
-        .par_iter()
-        .filter_map(|(place, one)| in_place_of(bench, found, (*place, *one)))
-        .collect()
+    let said = tried.par_iter().filter_map(|(place, one)| {
+        let (likelier, said) = in_place_of(bench, found, (*place, *one))?;
+        Some((*place, likelier, said))
+    });
+    let mut said: Vec<(Option<usize>, f64, String)> = said.collect();
+    // In one place only one law can be at work: the likeliest.
+    said.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    said.dedup_by_key(|(place, ..)| *place);
+    said.into_iter().map(|(_, _, said)| said).collect()
 }
 
 /// Laws outside the catalogue that records tell anything of.
@@ -49,62 +57,102 @@ fn usable(timed: bool) -> Vec<&'static dyn Outsider> {
     all.filter(|one| timed || !one.needs_time()).collect()
 }
 
-/// True where one law outside the catalogue does alone what takes several causes, and better by as much as a cause has to
-/// bring: what they have in common is its work.
-pub fn one_does_it_all(bench: &Bench, found: &Found, timed: bool) -> bool {
+/// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring: of all
+/// where it does alone what takes several, as what they have in common is its work; else of the one in whose place it does
+/// most, of a law that stands for a single one.
+pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
     let set = &found.best.effects;
-    if set.len() < 2 {
-        return false;
-    }
-    let passes = |one: &&dyn Outsider| {
-        let passes_for = one.passes_for();
-        set.iter().any(|a| passes_for.contains(&a.effect.name()))
-    };
     let margin = alarm(&bench.train);
-    let enough = least_likely(bench, (&found.best, margin), &found.baseline);
-    usable(timed).into_par_iter().filter(passes).any(|one| {
-        let alone = fitted(bench, &found.baseline, one, enough);
-        alone.is_some_and(|fit| likelier_by(bench, &fit, &found.best) > margin)
-    })
+    let passes = |one: &dyn Outsider, k: usize| one.passes_for().contains(&set[k].effect.name());
+    let all = 0..set.len();
+    let alone = usable(timed).into_par_iter().any(|one| {
+        let stands = set.len() > 1 || one.stands_for_one();
+        let asked = stands && all.clone().any(|k| passes(one, k));
+        asked && in_stead(bench, found, (one, None), margin).is_some()
+    });
+    if alone {
+        return all.collect();
+    }
+    let tried = usable(timed)
+        .into_par_iter()
+        .filter(|one| one.stands_for_one() && set.len() > 1)
+        .flat_map_iter(|one| all.clone().map(move |k| (k, one)))
+        .filter(|(k, one)| passes(*one, *k))
+        .filter_map(|(k, one)| Some((in_stead(bench, found, (one, Some(k)), margin)?.0, k)));
+    let most = tried.max_by(|a, b| a.0.total_cmp(&b.0));
+    most.map(|(_, k)| k).into_iter().collect()
 }
 
-/// What is said of one law in the place of one of the causes, or of none.
+/// Evidence beyond a margin for one law in the place of one of the causes, or of all of them, and the fit with it.
+fn in_stead(
+    bench: &Bench,
+    found: &Found,
+    (one, place): (&dyn Outsider, Option<usize>),
+    margin: f64,
+) -> Option<(f64, Fit)> {
+    let best = &found.best;
+    let mut others = best.effects.clone();
+    match place {
+        Some(k) => drop(others.remove(k)),
+        None => others.clear(),
+    }
+    beside(bench, found, (one, others), margin)
+}
+
+/// Evidence beyond a margin for one law beside these causes against the named ones, and the fit with it.
+fn beside(
+    bench: &Bench,
+    found: &Found,
+    (one, others): (&dyn Outsider, Vec<Acting>),
+    margin: f64,
+) -> Option<(f64, Fit)> {
+    let start = match others.is_empty() {
+        true => found.baseline.clone(),
+        false if others == found.best.effects => found.best.clone(),
+        false => refit(&bench.train, &found.best, others),
+    };
+    let enough = least_likely(bench, (&found.best, margin), &start);
+    let fit = fitted(bench, &start, one, enough)?;
+    let likelier = likelier_by(bench, &fit, &found.best);
+    (likelier > margin).then_some((likelier, fit))
+}
+
+/// Evidence for one law in the place of one of the causes, or beside all of them, and what is said of it.
 fn in_place_of(
     bench: &Bench,
     found: &Found,
     (place, one): (Option<usize>, &dyn Outsider),
-) -> Option<String> {
-    let (train, best) = (&bench.train, &found.best);
-    let mut others = best.effects.clone();
+) -> Option<(f64, String)> {
+    let mut others = found.best.effects.clone();
     let named = place.map(|k| others.remove(k).effect.name());
     if named.is_some_and(|name| !one.passes_for().contains(&name)) {
         return None;
     }
-    let start = match others.is_empty() {
-        true => found.baseline.clone(),
-        false => refit(train, best, others),
+    let lead = match named {
+        Some(name) => format!("{name}: "),
+        None if others.is_empty() => String::new(),
+        None => "beside them: ".to_string(),
     };
     // A law that is to be named in no other's place has to prove itself as a cause has.
-    let margin = if named.is_some() { 0.0 } else { alarm(train) };
-    let fit = fitted(
-        bench,
-        &start,
-        one,
-        least_likely(bench, (best, margin), &start),
-    )?;
+    let margin = if named.is_some() {
+        0.0
+    } else {
+        alarm(&bench.train)
+    };
+    let (likelier, fit) = beside(bench, found, (one, others), margin)?;
     let values = &fit.effect(one.name())?.values;
-    let said = one
-        .parameters()
-        .iter()
-        .zip(values)
+    let values = one.parameters().iter().zip(values);
+    let said = values
+        .filter(|(parameter, value)| parameter.neutral != Some(**value))
         .map(|(parameter, value)| {
             let Parameter { name, unit, .. } = parameter;
             format!("{name} {}", quantity(*value, unit))
         });
     let said: Vec<String> = said.collect();
-    let place = named.map_or_else(String::new, |name| format!("{name}: "));
-    (likelier_by(bench, &fit, best) > margin)
-        .then(|| format!("{place}{} ({})", one.words(), said.join(", ")))
+    Some((
+        likelier,
+        format!("{lead}{} ({})", one.words(), said.join(", ")),
+    ))
 }
 
 /// Evidence for one fit against another.

@@ -7,7 +7,8 @@ use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
 use super::trials::{Effort, Trial, dispersion, trials};
-use crate::identify::{Fit, Problem, smoothed};
+use crate::identify::{Fit, Problem, refit, smoothed};
+use crate::joint::effect::Acting;
 use rayon::prelude::*;
 
 /// Most causes named together.
@@ -31,6 +32,11 @@ pub struct Found {
     pub unasked: bool,
 }
 
+/// What stands at these places.
+fn of_kept<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {
+    kept.iter().filter_map(|&k| all.get(k)).cloned().collect()
+}
+
 impl Found {
     /// A set of which rivals and evidence are not asked for.
     pub(super) fn unasked(baseline: Fit, best: Fit, trials: Vec<Trial>) -> Found {
@@ -41,6 +47,25 @@ impl Found {
             best,
             trials,
             unasked: true,
+        }
+    }
+
+    /// Without the named causes at these places; the others are fitted anew.
+    pub fn without(self, bench: &Bench, places: Vec<usize>) -> Found {
+        if places.is_empty() {
+            return self;
+        }
+        let stays = |k: &usize| !places.contains(k);
+        let kept: Vec<usize> = (0..self.best.effects.len()).filter(stays).collect();
+        let effects: Vec<Acting> = kept.iter().map(|&k| self.best.effects[k].clone()).collect();
+        Found {
+            best: match effects.is_empty() {
+                true => self.baseline.clone(),
+                false => refit(&bench.train, &self.best, effects),
+            },
+            rivals: of_kept(&self.rivals, &kept),
+            evidence: of_kept(&self.evidence, &kept),
+            ..self
         }
     }
 

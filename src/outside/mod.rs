@@ -2,6 +2,7 @@
 //! one line each in [`OUTSIDE`].
 
 mod heated_friction;
+mod remade_joint;
 mod settling;
 mod warming_gain;
 
@@ -20,6 +21,10 @@ pub trait Outsider: Effect {
     }
     /// False where the fitted values are those of a cause.
     fn plausible(&self, values: &[f64], scale: &Scale) -> bool;
+    /// True where a single cause that explains the records worse is no likelier for being in the catalogue.
+    fn stands_for_one(&self) -> bool {
+        false
+    }
     /// What it may be, as a clause.
     fn words(&self) -> &'static str;
     /// This law as the effect it brings to the simulation.
@@ -33,6 +38,7 @@ pub trait Outsider: Effect {
 /// Every such law.
 pub static OUTSIDE: &[&dyn Outsider] = &[
     &heated_friction::HeatedFriction,
+    &remade_joint::RemadeJoint,
     &settling::Settling,
     &warming_gain::WarmingGain,
 ];
