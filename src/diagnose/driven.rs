@@ -3,23 +3,22 @@
 use super::growing::leaves_structure;
 use super::however_worn::however_worn;
 use super::investigation::{Investigation, quickly_searched};
-use super::judged_channel::form;
 use super::prepare::prepare;
 use super::trials::{ALARM, Effort, trials};
 use crate::identify::beginning::Beginning;
-use crate::identify::{as_driven, baseline, refit_below};
+use crate::identify::{Form, as_driven, baseline, refit_below};
 use crate::record::Record;
 
 /// Searches for causes in records however they begin and wear, with the drive as it leaves less between samples.
 ///
 /// Where noise is what a model leaves, another drive is searched in full if a quick search makes it likelier.
 pub(super) fn however_driven(
-    records: &[Record],
+    (form, records): (Form, &[Record]),
     timed: bool,
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    let driven = as_driven(form(records), records);
-    let first = however_worn(&driven, (timed, f64::INFINITY), progress);
+    let driven = as_driven(form, records);
+    let first = however_worn((form, &driven), (timed, f64::INFINITY), progress);
     let otherwise: Vec<Record> = driven
         .into_iter()
         .map(|record| Record {
@@ -32,7 +31,7 @@ pub(super) fn however_driven(
     }
     progress("once more: the drive may do something else between its samples");
     let asked = (timed, first.enough());
-    first.or_likelier(however_worn(&otherwise, asked, progress))
+    first.or_likelier(however_worn((form, &otherwise), asked, progress))
 }
 
 impl Investigation {

@@ -2,13 +2,12 @@
 
 use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
-use super::judged_channel::form;
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
 use super::trials::{ALARM, Effort, Trial, one_leaves, penalty, trials};
 
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
-use crate::identify::{Fit, baseline};
+use crate::identify::{Fit, Form, baseline};
 use crate::record::Record;
 
 /// Said where the records are searched with another beginning.
@@ -26,9 +25,9 @@ pub(super) struct Virgin {
 }
 
 impl Virgin {
-    pub(super) fn of(records: &[Record]) -> Virgin {
+    pub(super) fn of(form: Form, records: &[Record]) -> Virgin {
         let virgin = vec![Beginning::default(); records.len()];
-        let bench = prepare(form(records), records, &virgin);
+        let bench = prepare(form, records, &virgin);
         let first = baseline(&bench.train);
         Virgin {
             others: beginnings(&bench.train, &first),

@@ -7,7 +7,7 @@ use super::search::{Found, alone};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of, trials_of};
 
 use crate::causes::Cause;
-use crate::identify::refit;
+use crate::identify::{Form, refit};
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -17,12 +17,12 @@ const WORN_ON: &str = "once more: wear may go on from record to record";
 ///
 /// What leaves more than `enough` of every row, as a square of the judged channel, is not asked further.
 pub(super) fn however_worn(
-    records: &[Record],
+    (form, records): (Form, &[Record]),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     progress("noise and baseline");
-    let mut virgin = Virgin::of(records);
+    let mut virgin = Virgin::of(form, records);
     if let Some(on) = worn_by_one_cause(&mut virgin, (timed, enough), progress) {
         return on;
     }

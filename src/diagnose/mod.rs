@@ -106,8 +106,10 @@ pub fn diagnose_with(
     let given: Vec<usize> = records.iter().map(Record::len).collect();
     let records = thin.as_slice();
     let used: usize = records.iter().map(Record::len).sum();
-    let calm = without_drive_noise(form(records), records);
-    let Investigation { bench, found } = investigated(&calm, timed, &mut progress);
+    // Once for all: what is taken off one channel makes the other look like the drive.
+    let form = form(records);
+    let calm = without_drive_noise(form, records);
+    let Investigation { bench, found } = investigated((form, &calm), timed, &mut progress);
     progress("measuring the gain on held-out cycles");
     let settled = match &options.dummy {
         Some(dummy) => experiment::dummy::settle(&bench, found, &struck_out(dummy)),
@@ -147,7 +149,7 @@ const MANY: usize = 30_000;
 const TAKES: f64 = 0.25;
 
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
-/// structure in it: without, the noise is larger than it was taken for. Those that one law outside the catalogue stands for
+/// structure in it: without, the noise is larger than it was taken for; and names that a drive's noise may bring. Those that one law outside the catalogue stands for
 /// are taken back as well.
 fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
@@ -156,9 +158,10 @@ fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     // What is beyond noise whose variance is known to its own scatter only, and what is structure in any case.
     let noise = rows * bench.most_left().unwrap_or(1.0);
     let beyond = (found.baseline.misfit - noise).max(left.share * rows);
-    let takes_little = found.baseline.misfit - found.best.misfit < TAKES * beyond;
+    let taken = found.baseline.misfit - found.best.misfit;
+    let takes_little = taken < TAKES * beyond && left.is_seen();
     let all = (0..found.best.effects.len()).collect();
-    match takes_little && left.is_seen() {
+    match takes_little || taken < bench.beside_a_noisy_drive() {
         true => found.without(bench, all),
         false => {
             let stood_for = outsiders::stood_for(bench, &found, timed);

@@ -34,6 +34,8 @@ pub struct Bench {
     pub resolution: Vec<f64>,
     /// Sizes for the starts of the search.
     pub scale: Scale,
+    /// True where the drive of a record is read with noise, which no model answers as the joint did.
+    pub noisy_drive: bool,
     /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
     pub unsure: Vec<usize>,
 }
@@ -85,6 +87,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         noise: Vec::new(),
         resolution,
         scale,
+        noisy_drive: loud.contains(&true),
         unsure: vec![0; records.len()],
     };
     for (k, beginning) in beginnings.iter().enumerate() {
@@ -197,6 +200,15 @@ impl Bench {
             (rows / whole.max(1.0)).powi(2) * 2.0 / independent.max(1.0)
         };
         told.iter().map(square).sum::<f64>().sqrt()
+    }
+
+    /// Misfit that causes have to take away to be told from what laws are wrong by beside the noise of a drive: none where the
+    /// drive is known.
+    pub fn beside_a_noisy_drive(&self) -> f64 {
+        match self.noisy_drive {
+            true => NEARLY_RIGHT * self.train.rows() as f64,
+            false => 0.0,
+        }
     }
 
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.

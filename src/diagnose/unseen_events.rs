@@ -7,7 +7,7 @@ use super::places::scatter;
 use super::prepare::Bench;
 use super::tested::each_unseen;
 use super::trials::ALARM;
-use crate::identify::{Fit, baseline, refit};
+use crate::identify::{Fit, Form, baseline, refit};
 use crate::record::Record;
 use crate::record::split::Fitted;
 
@@ -50,7 +50,7 @@ fn news(bench: &Bench, fit: &Fit) -> Fitted {
 /// Searches for causes in records however they begin; once more where they end with what no fitted sample showed, or
 /// where something that all samples together tell happened within those set aside.
 pub fn investigated(
-    records: &[Record],
+    records: (Form, &[Record]),
     timed: bool,
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
