@@ -100,6 +100,22 @@ fn little_noise_in_many_samples_is_no_mass() {
     }
 }
 
+/// As loud as the stiffest answer to it is the noise of the force, and both are white: the joint felt neither.
+#[test]
+fn equal_noise_in_both_channels_is_no_cause() {
+    let equal = Measured {
+        drive: 2.5e-8,
+        response: 3.0,
+        alike: 0.0,
+        ..LOUD
+    };
+    for seed in SEEDS {
+        let findings = diagnose(&[record(seed, &equal)], |_| ()).unwrap();
+        let named: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(findings.verdict, Verdict::Clean, "seed {seed}: {named:?}");
+    }
+}
+
 /// The fast part of slow noise is no louder than the drive's: what repeats tells which of them drives.
 #[test]
 fn the_channel_that_repeats_drives() {

@@ -25,7 +25,16 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// What is seen in a residual, with the noise said to be of a correlation told by so many samples.
-fn seen(residual: &[f64], (autoregression, samples): (f64, usize)) -> Structure {
+fn seen(residual: &[f64], told: (f64, usize)) -> Structure {
+    seen_beside(residual, told, 0.0)
+}
+
+/// The same of noise in which whitening leaves so much correlation of neighbours.
+fn seen_beside(
+    residual: &[f64],
+    (autoregression, samples): (f64, usize),
+    beyond: f64,
+) -> Structure {
     let displacement: Vec<f64> = (0..residual.len())
         .map(phase)
         .map(|(level, angle)| level * angle.sin())
@@ -45,6 +54,7 @@ fn seen(residual: &[f64], (autoregression, samples): (f64, usize)) -> Structure 
     let noise = Noise {
         deviation: 1.0,
         autoregression,
+        beyond,
         samples,
         repeated: true,
     };
@@ -84,6 +94,38 @@ fn noise_more_alike_than_few_samples_told_is_no_structure() {
     }
     assert_eq!(by_few, 0);
     assert!(by_many > draws / 2, "{by_many}");
+}
+
+/// Noise of unit variance that two poles of 0.8 have passed: neighbours correlate by 1.6/1.64, and by 0.62 once whitened.
+#[test]
+fn noise_behind_a_filter_is_no_structure_where_cycles_show_it() {
+    let mut random = ChaCha8Rng::seed_from_u64(20_261_126);
+    let filtered = |random: &mut ChaCha8Rng| {
+        let (mut one, mut two) = (0.0, 0.0);
+        let mut next = || {
+            one = 0.8 * one + normal(random);
+            two = 0.8 * two + one;
+            // The variance of both poles is (1 + 0.64)/(1 − 0.64)³ times that of what enters.
+            two * (0.36_f64.powi(3) / 1.64).sqrt()
+        };
+        for _ in 0..100 {
+            next();
+        }
+        (0..PER_CYCLE * CYCLES)
+            .map(|_| next())
+            .collect::<Vec<f64>>()
+    };
+    let told = (1.6 / 1.64, 2000);
+    for _ in 0..20 {
+        let noise = filtered(&mut random);
+        let taken_for_first_order = seen(&noise, told);
+        assert!(taken_for_first_order.is_seen(), "{taken_for_first_order:?}");
+        let known = seen_beside(&noise, told, 0.62);
+        assert!(!known.is_seen() && known.share < 0.02, "{known:?}");
+        let both = (0..noise.len()).map(|i| noise[i] + 1.5 * (3.0 * phase(i).1).cos());
+        let both = seen_beside(&both.collect::<Vec<f64>>(), told, 0.62);
+        assert!(both.share > 0.02 && both.significance > 6.0, "{both:?}");
+    }
 }
 
 #[test]

@@ -149,7 +149,7 @@ const MANY: usize = 30_000;
 const TAKES: f64 = 0.25;
 
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
-/// structure in it: without, the noise is larger than it was taken for; and names that a drive's noise may bring. Those that one law outside the catalogue stands for
+/// structure in it: without, the noise is larger than it was taken for; and names that a drive's noise may bring, or noise of another kind than it was taken for. Those that one law outside the catalogue stands for
 /// are taken back as well.
 fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
@@ -161,7 +161,7 @@ fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let taken = found.baseline.misfit - found.best.misfit;
     let takes_little = taken < TAKES * beyond && left.is_seen();
     let all = (0..found.best.effects.len()).collect();
-    match takes_little || taken < bench.beside_a_noisy_drive() {
+    match takes_little || taken < bench.least_taken(trials::alarm(&bench.train)) {
         true => found.without(bench, all),
         false => {
             let stood_for = outsiders::stood_for(bench, &found, timed);

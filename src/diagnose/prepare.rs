@@ -202,13 +202,16 @@ impl Bench {
         told.iter().map(square).sum::<f64>().sqrt()
     }
 
-    /// Misfit that causes have to take away to be told from what laws are wrong by beside the noise of a drive: none where the
-    /// drive is known.
-    pub fn beside_a_noisy_drive(&self) -> f64 {
-        match self.noisy_drive {
+    /// Misfit that causes have to take away at least, beyond an alarm: what laws are wrong by beside the noise of a drive, and
+    /// as many alarms as noise of another kind than first-order is louder where it is loudest.
+    pub fn least_taken(&self, alarm: f64) -> f64 {
+        let driven = match self.noisy_drive {
             true => NEARLY_RIGHT * self.train.rows() as f64,
             false => 0.0,
-        }
+        };
+        let coloured = self.noise.iter().map(Noise::coloured);
+        let coloured = coloured.filter(|times| *times > 1.0).map(|t| t * alarm);
+        coloured.fold(driven, f64::max)
     }
 
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.

@@ -110,7 +110,9 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -
         let stretches: Vec<&[f64]> = stretches.map(|(_, stretch)| stretch).collect();
         correlations.push(correlation(&stretches, 1));
         let chance = CHANCE / ((STRETCH * stretches.len()).max(1) as f64).sqrt();
-        let lags = (2..=FARTHEST).map(|lag| correlation(&stretches, lag).abs() - chance);
+        // Noise that repeated cycles tell to be of another kind rings by itself.
+        let farthest = if noise[k].beyond > 0.0 { 1 } else { FARTHEST };
+        let lags = (2..=farthest).map(|lag| correlation(&stretches, lag).abs() - chance);
         ringing = lags.fold(ringing, f64::max);
         for Piece {
             from,
@@ -147,7 +149,8 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -
         .sum();
     let free = (total - bins.len() as f64).max(1.0);
     let variance = (within / free).max(QUIET);
-    let correlation = correlations.iter().fold(0.0_f64, |most, c| most.max(*c));
+    let own = correlations.iter().zip(noise).map(|(c, n)| c - n.beyond);
+    let correlation = own.fold(0.0_f64, f64::max);
     if variance.is_nan() || variance <= 0.0 || bins.is_empty() {
         return Structure {
             share: 0.0,
@@ -159,11 +162,17 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -
         };
     }
     let between: f64 = bins.iter().map(|b| b.sum * b.sum / b.count).sum::<f64>() / variance;
-    let count = bins.len() as f64;
-    let excess = between - count;
+    // What repeated cycles show in the noise is no structure.
+    let expected: f64 = bins.iter().map(|b| noise[b.record].coloured()).sum();
+    let excess = between - expected;
     let heard: f64 = bins
         .iter()
-        .map(|b| b.sum * b.sum / b.count / variance / alike_noise(correlations[b.record]))
+        .map(|b| {
+            b.sum * b.sum
+                / b.count
+                / variance
+                / alike_noise(correlations[b.record], &noise[b.record])
+        })
         .map(|square| square.min(LOUDEST))
         .sum();
     let (mean, scatter) = quiet(&bins, variance);
@@ -232,10 +241,10 @@ fn correlation(stretches: &[&[f64]], lag: usize) -> f64 {
 const STRETCH: usize = 32;
 
 /// Variance of a mean of noise whose neighbours are still somewhat alike, over that of independent
-/// samples; no more than twice, for what is more alike than that is no noise.
-fn alike_noise(correlation: f64) -> f64 {
+/// samples; no more than twice, for what is more alike than that is no noise, unless repeated cycles show it in the noise.
+fn alike_noise(correlation: f64, noise: &Noise) -> f64 {
     let left = correlation.clamp(0.0, 1.0 / 3.0);
-    (1.0 + left) / (1.0 - left)
+    ((1.0 + left) / (1.0 - left)).max(noise.coloured())
 }
 
 #[derive(Debug, Clone)]
@@ -328,6 +337,7 @@ mod tests {
         Noise {
             deviation: 1.0,
             autoregression: 0.0,
+            beyond: 0.0,
             samples,
             repeated: true,
         }

@@ -19,10 +19,10 @@ pub(super) const MOST_ALIKE: f64 = 0.99;
 const HALVINGS: usize = 30;
 
 /// Coefficients of the powers of the correlation of neighbours, from the zeroth on.
-type Powers = [f64; 5];
+type Powers = [f64; 6];
 
 impl Blended {
-    /// Covariance of two differences `lag` samples apart, 0 or 1, of noise of unit variance whose neighbours within a cycle
+    /// Covariance of two differences `lag` samples apart, up to 2, of noise of unit variance whose neighbours within a cycle
     /// correlate by `a`, and those of different cycles not, by powers of `a`.
     ///
     /// `Σ_j Σ_k Σ_l h_jk h_jl a^|lag + k − l|`: neighbours that were read between samples share those, and of slow noise
@@ -91,6 +91,43 @@ pub(super) fn moments(parts: &[&Blended]) -> (f64, f64) {
     ((squares / at(most, &square)).sqrt(), most)
 }
 
+/// Correlation of neighbours in noise whitened by the coefficient `a`, beyond what reading between samples makes of first-order
+/// noise: zero for such noise, near one for noise behind a filter far below half the sampling rate. Less than chance gives is
+/// none.
+pub(super) fn beyond_first_order(parts: &[&Blended], a: f64) -> f64 {
+    let of_lag = |lag: usize| {
+        let (mut seen, mut expected, mut pairs) = (0.0, 0.0, 0.0);
+        for part in parts {
+            let own = part.differences.len().saturating_sub(lag) as f64;
+            let both = part
+                .differences
+                .iter()
+                .zip(part.differences.iter().skip(lag));
+            seen += both.map(|(x, y)| x * y).sum::<f64>();
+            expected += own * at(a, &part.covariance(lag));
+            pairs += own;
+        }
+        [seen / pairs, expected / pairs]
+    };
+    let [none, one, two] = [0, 1, 2].map(of_lag);
+    let whitened = |k: usize| {
+        let [one, two] = [one[k] / none[k], two[k] / none[k]];
+        (one * (1.0 + a * a) - a * (1.0 + two)) / (1.0 + a * a - 2.0 * a * one)
+    };
+    let beyond = whitened(0) - whitened(1);
+    let count: usize = parts.iter().map(|part| part.differences.len()).sum();
+    match beyond > CHANCE / (count as f64).sqrt() {
+        true => beyond.min(MOST_COLOURED),
+        false => 0.0,
+    }
+}
+
+/// Correlation of neighbours that whitening is taken to leave at most: of few samples it is not known to be more.
+const MOST_COLOURED: f64 = 0.9;
+
+/// Standard errors that chance may give a correlation.
+const CHANCE: f64 = 4.0;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,6 +146,35 @@ mod tests {
             // Var = (1 + a)/2, and (1 + 2a + a²)/4 one sample apart.
             assert!((of(&mean, 0) - (1.0 + a) / 2.0).abs() < 1e-12);
             assert!((of(&mean, 1) - (1.0 + a).powi(2) / 4.0).abs() < 1e-12);
+        }
+    }
+
+    /// Differences of noise that one pole or two of 0.8 have passed, as three cycles of the drive would give them.
+    #[test]
+    fn noise_behind_a_filter_is_told_from_first_order_noise() {
+        let mut random = crate::record::noise::tests::drawn(20_261_127);
+        let mut normal = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let mut told = |second: f64| {
+            let (mut one, mut two) = (0.0, 0.0);
+            let mut next = || {
+                one = 0.8 * one + normal();
+                two = second * two + one;
+                two
+            };
+            let part = Blended {
+                differences: (0..1000).map(|_| next()).collect(),
+                taps: vec![[1.0, 0.0, 0.0, 0.0]],
+            };
+            let (_, a) = moments(&[&part]);
+            beyond_first_order(&[&part], a)
+        };
+        let first_order: Vec<f64> = (0..200).map(|_| told(0.0)).collect();
+        // One in 32 000 lies beyond four standard errors.
+        assert!(first_order.iter().all(|b| *b == 0.0), "{first_order:?}");
+        for _ in 0..20 {
+            // (1.6/1.64 (1 + a²) − a (1 + r₂))/(1 − a²) with a = 1.6/1.64 and r₂ = 1.6 a − 0.64.
+            let filtered = told(0.8);
+            assert!((filtered - 0.62).abs() < 0.15, "{filtered}");
         }
     }
 }

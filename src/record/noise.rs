@@ -10,6 +10,9 @@ pub struct Noise {
     pub deviation: f64,
     /// Correlation of neighbouring samples, 0 … 0.99.
     pub autoregression: f64,
+    /// Correlation of neighbours that repeated cycles show in it once whitened: zero for first-order noise, large behind a
+    /// filter far below half the sampling rate; zero where none told.
+    pub beyond: f64,
     /// Samples it was estimated from.
     pub samples: usize,
     /// True where repeated cycles gave it; false where it is read off the fastest variations.
@@ -38,6 +41,12 @@ impl Noise {
         let a = self.autoregression;
         let error = ((1.0 - a * a) / self.told_by().max(1.0)).sqrt();
         (a + 2.0 * error).min(MOST_ALIKE.max(a))
+    }
+
+    /// Spectral density of whitened noise where it is largest over its mean, `(1 + c)/(1 − c)` with what whitening leaves of the
+    /// correlation of neighbours: one for first-order noise.
+    pub fn coloured(&self) -> f64 {
+        (1.0 + self.beyond) / (1.0 - self.beyond)
     }
 
     /// True where a few repeated cycles tell more slow noise than the fast part of the whole residual allows: one
@@ -79,6 +88,7 @@ pub fn from_residual(residual: &[f64]) -> Noise {
     Noise {
         deviation,
         autoregression,
+        beyond: 0.0,
         samples: residual.len(),
         repeated: false,
     }
@@ -105,6 +115,7 @@ pub(super) fn of_thirds(differences: &[f64], samples: usize) -> Noise {
     Noise {
         deviation: (median / 0.4549).sqrt(),
         autoregression: 0.0,
+        beyond: 0.0,
         samples,
         repeated: false,
     }
@@ -156,6 +167,7 @@ pub mod tests {
         let told = |samples| Noise {
             deviation: 5.0,
             autoregression: 0.97,
+            beyond: 0.0,
             samples,
             repeated: true,
         };

@@ -1,6 +1,6 @@
 //! Noise of a channel where cycles of the drive repeat: no model is needed then.
 
-use super::blended::{Blended, moments};
+use super::blended::{Blended, beyond_first_order, moments};
 use super::cycles::{Cycle, alike, as_long, cycles, span};
 use super::noise::Noise;
 use super::peaks::between;
@@ -89,10 +89,12 @@ fn noise_of(parts: Vec<Blended>) -> Option<Noise> {
     if samples < ENOUGH {
         return None;
     }
-    let (deviation, autoregression) = moments(&calm.iter().collect::<Vec<_>>());
+    let calm: Vec<&Blended> = calm.iter().collect();
+    let (deviation, autoregression) = moments(&calm);
     Some(Noise {
         deviation,
         autoregression,
+        beyond: beyond_first_order(&calm, autoregression),
         samples,
         repeated: true,
     })
