@@ -138,3 +138,16 @@ fn a_gain_that_warms_up_is_no_running_in() {
         );
     }
 }
+
+/// A pump of 7.3 Hz under the table, three times as loud as the noise: no cycle of the load repeats it.
+#[test]
+fn a_tone_that_goes_on_is_no_noise() {
+    let mut record = record(&mut |_, _| (1.0, 0.0));
+    for (i, force) in record.force.iter_mut().enumerate() {
+        *force += 0.9 * (TAU * 7.3 * 0.01 * i as f64).sin();
+    }
+    let findings = diagnose(&[record], |_| ()).unwrap();
+    let doubles = findings.unexplained.doubles.join("; ");
+    assert_eq!(findings.verdict, Verdict::Unexplained, "{findings:?}");
+    assert!(doubles.contains("a steady tone (7.3"), "{doubles}");
+}

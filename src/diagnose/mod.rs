@@ -38,6 +38,7 @@ mod sizes;
 mod striking;
 pub mod structure;
 mod tested;
+mod tone;
 pub mod trials;
 mod unseen_events;
 mod verdict;
@@ -221,6 +222,8 @@ fn assemble(
     doubles.extend(outsiders::doubles(&whole, &modelled));
     // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
     doubles.extend(outsiders::outsiders(bench, &sober, (timed, taken_back)));
+    let toned = tone::tone(&bench.whole, &modelled, &bench.noise);
+    doubles.extend(toned.map(|tone| words::toned(&records[tone.record], &tone)));
     let verdict = verdict::verdict(
         named.then(|| {
             gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
@@ -234,6 +237,11 @@ fn assemble(
         chi,
         probability::unlisted(&found, beyond_noise),
     );
+    let verdict = match verdict {
+        // What differs between cycles was taken for noise, a tone with it.
+        Verdict::Clean if toned.is_some() => Verdict::Unexplained,
+        verdict => verdict,
+    };
     let causes = catalogue::named(bench, &found, &whole);
     let (left, beyond_noise) = match verdict {
         Verdict::Clean => (0.0, 0.0),

@@ -4,6 +4,7 @@ use super::backwards::runs_backwards;
 use super::findings::{Findings, Verdict};
 use super::judged_channel::compliance_ratio;
 use super::prepare::Bench;
+use super::tone::Tone;
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
 use crate::record::Record;
@@ -202,6 +203,25 @@ pub fn goes_astray(follows: f64) -> String {
     format!(
         "The best joint answers {:.0} % of the judged channel's variance: see that the columns are those of one test, in their order and at one time.",
         100.0 * follows.max(0.0)
+    )
+}
+
+/// What is said of a tone that goes on through a record.
+pub fn toned(record: &Record, tone: &Tone) -> String {
+    let ends = record
+        .time
+        .as_ref()
+        .and_then(|t| Some((t.first()?, t.last()?)));
+    let pitch = match ends {
+        Some((first, last)) => {
+            let steps = record.len().saturating_sub(1) as f64;
+            quantity(tone.frequency * steps / (last - first), "Hz")
+        }
+        None => format!("one cycle in {:.1} samples", 1.0 / tone.frequency),
+    };
+    format!(
+        "a steady tone ({pitch}) goes on through record {}: a vibration of the rig, or what its electronics pick up",
+        record.name
     )
 }
 
