@@ -150,8 +150,9 @@ const MANY: usize = 30_000;
 const TAKES: f64 = 0.25;
 
 /// Takes back names that leave nearly all of the misfit where it was, on the samples of the fit, and
-/// structure in it: without, the noise is larger than it was taken for; and names that a drive's noise may bring, or noise of another kind than it was taken for. Those that one law outside the catalogue stands for
-/// are taken back as well.
+/// structure in it: without, the noise is larger than it was taken for. Those that take away no more than noise of a drive
+/// may bring, or noise of another kind than first-order, and those that one law outside the catalogue stands for, are taken
+/// back as well.
 fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
     let predictions = found.best.predict(&bench.train);
