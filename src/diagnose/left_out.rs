@@ -43,6 +43,12 @@ pub fn left_out(bench: &Bench, whole: &Fit) -> Vec<LeftOut> {
         .collect()
 }
 
+/// True where the records tell of the causes without one of them, or there is only one: else nothing but what differs
+/// between them does, and a joint is not the same in every test.
+pub fn bears_out(all: &[LeftOut]) -> bool {
+    all.is_empty() || all.iter().any(|one| one.after != one.before)
+}
+
 fn one(problem: &Problem, whole: &Fit, k: usize) -> LeftOut {
     let mut others = problem.clone();
     others.records[k].weight.iter_mut().for_each(|w| *w = 0.0);
@@ -152,5 +158,7 @@ mod tests {
         let (problem, whole) = hummed([0.0, 2e-7]);
         let told_by_itself = one(&problem, &whole, 1);
         assert_eq!(told_by_itself.before, told_by_itself.after);
+        assert!(!bears_out(std::slice::from_ref(&told_by_itself)));
+        assert!(bears_out(&[told_by_itself, told_by_both]) && bears_out(&[]));
     }
 }

@@ -223,6 +223,10 @@ fn assemble(
     doubles.extend(outsiders::doubles(&whole, &modelled));
     // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
     doubles.extend(outsiders::outsiders(bench, &sober, (timed, taken_back)));
+    let left_out = left_out::left_out(bench, &whole);
+    if named && !left_out::bears_out(&left_out) {
+        doubles.push(words::only_between(&whole.effects));
+    }
     let toned = tone::tone(&bench.whole, &modelled, &bench.noise);
     doubles.extend(toned.map(|tone| words::toned(&records[tone.record], &tone)));
     let verdict = verdict::verdict(
@@ -278,7 +282,7 @@ fn assemble(
         extended: gain::errors(bench, &after),
         gain,
         levels: levels::levels(bench, &before, &after, timed),
-        left_out: left_out::left_out(bench, &whole),
+        left_out,
         unexplained: Unexplained {
             share: left,
             places: match verdict {

@@ -7,6 +7,7 @@ use super::prepare::Bench;
 use super::tone::Tone;
 use crate::identify::Form;
 use crate::identify::beginning::Beginning;
+use crate::joint::effect::Acting;
 use crate::record::Record;
 use crate::record::outliers::stand_alone;
 use crate::record::resolution::step;
@@ -203,6 +204,15 @@ pub fn goes_astray(follows: f64) -> String {
     format!(
         "The best joint answers {:.0} % of the judged channel's variance: see that the columns are those of one test, in their order and at one time.",
         100.0 * follows.max(0.0)
+    )
+}
+
+/// What is said of causes that no record bears out by itself.
+pub fn only_between(effects: &[Acting]) -> String {
+    let names: Vec<&str> = effects.iter().map(|a| a.effect.name()).collect();
+    format!(
+        "{}: only what differs between the records speaks for it, which may have another reason: without one of them the others tell nothing of it",
+        names.join(", ")
     )
 }
 
