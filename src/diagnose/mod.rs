@@ -228,6 +228,8 @@ fn assemble(
         doubles.push(words::only_between(&whole.effects));
     }
     let toned = tone::tone(&bench.whole, &modelled, &bench.noise);
+    // What a load repeats has its pitch, and is no tone of another's.
+    let toned = toned.filter(|_| !structure_after.goes_with_the_load());
     doubles.extend(toned.map(|tone| words::toned(&records[tone.record], &tone)));
     let verdict = verdict::verdict(
         named.then(|| {

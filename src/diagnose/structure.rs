@@ -26,9 +26,14 @@ pub struct Structure {
 }
 
 impl Structure {
+    /// True where bins of the load or of a cycle stand out by more than noise explains.
+    pub fn goes_with_the_load(&self) -> bool {
+        self.significance > SEEN
+    }
+
     /// True where bins stand out by more than noise explains, or neighbours go together.
     pub fn is_seen(&self) -> bool {
-        self.significance > SEEN || self.correlation.max(self.ringing) > RANDOM
+        self.goes_with_the_load() || self.correlation.max(self.ringing) > RANDOM
     }
 }
 
