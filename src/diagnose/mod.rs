@@ -227,9 +227,11 @@ fn assemble(
     if named && !left_out::bears_out(&left_out) {
         doubles.push(words::only_between(&whole.effects));
     }
-    let toned = tone::tone(&bench.whole, &modelled, &bench.noise);
     // What a load repeats has its pitch, and is no tone of another's.
-    let toned = toned.filter(|_| !structure_after.goes_with_the_load());
+    let toned = match structure_after.goes_with_the_load() {
+        true => None,
+        false => tone::tone(&bench.whole, &modelled, &bench.noise),
+    };
     doubles.extend(toned.map(|tone| words::toned(&records[tone.record], &tone)));
     let verdict = verdict::verdict(
         named.then(|| {
@@ -242,13 +244,8 @@ fn assemble(
         &structure_after,
         (bench.most_left(), bench.is_read_to_the_end()),
         chi,
-        probability::unlisted(&found, beyond_noise),
+        (probability::unlisted(&found, beyond_noise), toned.is_some()),
     );
-    let verdict = match verdict {
-        // What differs between cycles was taken for noise, a tone with it.
-        Verdict::Clean if toned.is_some() => Verdict::Unexplained,
-        verdict => verdict,
-    };
     let causes = catalogue::named(bench, &found, &whole);
     let (left, beyond_noise) = match verdict {
         Verdict::Clean => (0.0, 0.0),

@@ -63,40 +63,32 @@ fn usable(timed: bool) -> Vec<&'static dyn Outsider> {
 pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
     let set = &found.best.effects;
     let margin = alarm(&bench.train);
-    let passes = |one: &dyn Outsider, k: usize| one.passes_for().contains(&set[k].effect.name());
+    let passes = |one: &dyn Outsider, k: usize| one.passes_for(set[k].effect.name());
     let all = 0..set.len();
     let alone = usable(timed).into_par_iter().any(|one| {
         let stands = set.len() > 1 || one.stands_for_one();
         let asked = stands && all.clone().any(|k| passes(one, k));
-        asked && in_stead(bench, found, (one, None), margin).is_some()
+        asked && beside(bench, found, (one, Vec::new()), margin).is_some()
     });
     if alone {
         return all.collect();
     }
+    let likelier = |one, k| beside(bench, found, (one, others(set, k)), margin);
     let tried = usable(timed)
         .into_par_iter()
         .filter(|one| one.stands_for_one() && set.len() > 1)
         .flat_map_iter(|one| all.clone().map(move |k| (k, one)))
         .filter(|(k, one)| passes(*one, *k))
-        .filter_map(|(k, one)| Some((in_stead(bench, found, (one, Some(k)), margin)?.0, k)));
+        .filter_map(|(k, one)| Some((likelier(one, k)?.0, k)));
     let most = tried.max_by(|a, b| a.0.total_cmp(&b.0));
     most.map(|(_, k)| k).into_iter().collect()
 }
 
-/// Evidence beyond a margin for one law in the place of one of the causes, or of all of them, and the fit with it.
-fn in_stead(
-    bench: &Bench,
-    found: &Found,
-    (one, place): (&dyn Outsider, Option<usize>),
-    margin: f64,
-) -> Option<(f64, Fit)> {
-    let best = &found.best;
-    let mut others = best.effects.clone();
-    match place {
-        Some(k) => drop(others.remove(k)),
-        None => others.clear(),
-    }
-    beside(bench, found, (one, others), margin)
+/// The causes of a set but for one.
+fn others(set: &[Acting], k: usize) -> Vec<Acting> {
+    let mut others = set.to_vec();
+    others.remove(k);
+    others
 }
 
 /// Evidence beyond a margin for one law beside these causes against the named ones, and the fit with it.
@@ -123,11 +115,12 @@ fn in_place_of(
     found: &Found,
     (place, one): (Option<usize>, &dyn Outsider),
 ) -> Option<(f64, String)> {
-    let mut others = found.best.effects.clone();
-    let named = place.map(|k| others.remove(k).effect.name());
-    if named.is_some_and(|name| !one.passes_for().contains(&name)) {
+    let set = &found.best.effects;
+    let named = place.map(|k| set[k].effect.name());
+    if named.is_some_and(|name| !one.passes_for(name)) {
         return None;
     }
+    let others = place.map_or_else(|| set.clone(), |k| others(set, k));
     let lead = match named {
         Some(name) => format!("{name}: "),
         None if others.is_empty() => String::new(),

@@ -1,6 +1,6 @@
 //! Structure beyond noise: does what a model leaves repeat with the load or wander with time?
 
-use crate::identify::weighing::whiten;
+use crate::identify::weighing::whitened;
 use crate::identify::{Prediction, Problem};
 use crate::record::cycles::{alike, cycles};
 use crate::record::noise::Noise;
@@ -15,8 +15,8 @@ pub struct Structure {
     /// Standard deviations by which the bins' means exceed what noise gives them, none counted for
     /// more than [`LOUDEST`].
     pub significance: f64,
-    /// Correlation of neighbours in what is left within the bins, the largest of any record: noise
-    /// that was whitened has none.
+    /// Correlation of neighbours in what is left within the bins, the largest of any record, beyond what repeated cycles show in
+    /// its noise: first-order noise that was whitened has none.
     pub correlation: f64,
     /// The largest correlation in it of samples further apart, of either sign and beyond chance: what rings is no noise,
     /// and looks like it to its neighbours alone.
@@ -99,15 +99,13 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -
     for (k, prediction) in predictions.iter().enumerate() {
         let (input, judged) = problem.channels(k);
         let record = &problem.records[k];
-        let mut white = Vec::with_capacity(judged.len());
-        let mut before = None;
         // Of records with different noise each counts by its own.
         let innovation = noise[k].innovation();
         let unit = if innovation > 0.0 { innovation } else { 1.0 };
-        for (i, (&y, &p)) in judged.iter().zip(&prediction.judged).enumerate() {
-            white.push(whiten(noise[k].autoregression, y - p, before).0 / unit);
-            before = record.counts(i).then_some(y - p);
-        }
+        let errors = judged.iter().zip(&prediction.judged).enumerate();
+        let left = errors.map(|(i, (y, p))| (y - p, record.counts(i)));
+        let mut white = whitened(noise[k].autoregression, left);
+        white.iter_mut().for_each(|w| *w /= unit);
         // What no fit answers for is no witness of how alike neighbours are either.
         let stretches = white.chunks_exact(STRETCH).enumerate();
         let all_count = |at: usize| (at * STRETCH..(at + 1) * STRETCH).all(|i| record.counts(i));

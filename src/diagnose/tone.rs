@@ -1,6 +1,6 @@
 //! A steady tone in what a model leaves: cycles of the load do not repeat it, so that it passes for noise.
 
-use crate::identify::weighing::whiten;
+use crate::identify::weighing::whitened;
 use crate::identify::{Prediction, Problem};
 use crate::record::noise::Noise;
 use std::f64::consts::TAU;
@@ -42,28 +42,28 @@ const MATTERS: f64 = 0.1;
 /// Of noise the mean square of a correlation is `B/n`, B the sum of the squares of those nearby (Bartlett); of a tone of the
 /// share s it is `s²/2` at any distance. Records shorter than four times the farthest distance tell none.
 pub fn tone(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Option<Tone> {
-    let of_record = |(k, prediction): (usize, &Prediction)| {
-        let left = whitened(problem, (k, prediction), noise[k].autoregression);
-        Some(Tone {
-            record: k,
-            ..told(&left)?
-        })
-    };
-    let tones = predictions.iter().enumerate().filter_map(of_record);
+    let tones = predictions
+        .iter()
+        .enumerate()
+        .filter_map(|(k, prediction)| {
+            let left = of_record(problem, (k, prediction), noise[k].autoregression);
+            Some(Tone {
+                record: k,
+                ..told(&left)?
+            })
+        });
     tones.max_by(|a, b| a.share.total_cmp(&b.share))
 }
 
 /// What is left of a record, whitened, about its mean; nothing where no fit answers for a sample.
-fn whitened(problem: &Problem, (k, prediction): (usize, &Prediction), a: f64) -> Vec<f64> {
+fn of_record(problem: &Problem, (k, prediction): (usize, &Prediction), a: f64) -> Vec<f64> {
     let (_, judged) = problem.channels(k);
     let record = &problem.records[k];
-    let mut before = None;
-    let mut left = Vec::with_capacity(judged.len());
-    for (i, (y, p)) in judged.iter().zip(&prediction.judged).enumerate() {
-        let counts = record.counts(i);
-        let white = whiten(a, y - p, before).0;
-        left.push(if counts { white } else { 0.0 });
-        before = counts.then_some(y - p);
+    let errors = judged.iter().zip(&prediction.judged).enumerate();
+    let mut left = whitened(a, errors.map(|(i, (y, p))| (y - p, record.counts(i))));
+    let silent = left.iter_mut().enumerate();
+    for (_, w) in silent.filter(|(i, _)| !record.counts(*i)) {
+        *w = 0.0;
     }
     let mean = left.iter().sum::<f64>() / left.len().max(1) as f64;
     left.iter_mut().for_each(|w| *w -= mean);

@@ -28,18 +28,19 @@ const UNSURE: f64 = 0.1;
 /// `named` is `None` where no cause is; else whether the gain on held-out data is beyond its
 /// scatter, without which nothing counts as explained. `most` bounds `chi`, what the model leaves
 /// over the noise's variance, where the noise is known on its own; `unlisted` is the probability of
-/// something that is not in the catalogue; `read` is true where the noise was taken for what the channels resolve.
+/// something that is not in the catalogue, and `toned` is true where a tone is left that cycles do not repeat; `read` is true where the noise was taken for what the channels resolve.
 pub fn verdict(
     named: Option<bool>,
     before: &Structure,
     after: &Structure,
     (most, read): (Option<f64>, bool),
     chi: f64,
-    unlisted: f64,
+    (unlisted, toned): (f64, bool),
 ) -> Verdict {
     // Beneath what a channel resolves nobody asks what is left.
     let shows = !read || chi > 1.0;
-    let left = shows && after.significance > STRUCTURED && after.share > NEGLIGIBLE;
+    // What differs between cycles was taken for noise, a tone with it.
+    let left = toned || shows && after.significance > STRUCTURED && after.share > NEGLIGIBLE;
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too, unless what
     // is left is as random as noise: noise that grows with the load is. A few large errors in every bin
     // hide that the bins differ.
@@ -69,7 +70,7 @@ mod tests {
             ringing: 0.0,
             places: Vec::new(),
         };
-        let said = |most, chi| verdict(None, &random, &random, (most, false), chi, 0.0);
+        let said = |most, chi| verdict(None, &random, &random, (most, false), chi, (0.0, false));
         assert_eq!(said(Some(1.4), 15.0), Verdict::Unexplained);
         // Noise that grows with the load is known too small.
         assert_eq!(said(Some(1.4), 3.0), Verdict::Clean);
@@ -89,7 +90,7 @@ mod tests {
             ringing: 0.0,
             places: Vec::new(),
         };
-        let said = |read, chi| verdict(None, &pattern, &pattern, (None, read), chi, 0.0);
+        let said = |read, chi| verdict(None, &pattern, &pattern, (None, read), chi, (0.0, false));
         assert_eq!(said(true, 0.01), Verdict::Clean);
         assert_eq!(said(true, 1.5), Verdict::Unexplained);
         assert_eq!(said(false, 0.9), Verdict::Unexplained);

@@ -52,6 +52,17 @@ pub fn whiten(autoregression: f64, value: f64, before: Option<f64>) -> (f64, f64
     }
 }
 
+/// What is left of samples one after the other, whitened; behind one that does not count noise begins anew.
+pub fn whitened(autoregression: f64, left: impl Iterator<Item = (f64, bool)>) -> Vec<f64> {
+    let mut before = None;
+    left.map(|(left, counts)| {
+        let (white, _) = whiten(autoregression, left, before);
+        before = counts.then_some(left);
+        white
+    })
+    .collect()
+}
+
 /// Standard deviation of the sum of squares of so many weighed rows of noise alone, `√(2 rows)`, in noise variances.
 pub fn deviation(rows: f64) -> f64 {
     (2.0 * rows).sqrt()

@@ -74,13 +74,14 @@ impl Effect for HeatedFriction {
 }
 
 impl Outsider for HeatedFriction {
-    fn passes_for(&self) -> &'static [&'static str] {
-        &[
+    fn passes_for(&self, cause: &str) -> bool {
+        [
             "preload_loss",
             "velocity_weakening",
             "static_friction_drop",
             "running_in",
         ]
+        .contains(&cause)
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let start = |share: &f64| {

@@ -11,8 +11,8 @@ use crate::joint::effect::Effect;
 
 /// A law that a joint or a specimen may follow and the catalogue does not have.
 pub trait Outsider: Effect {
-    /// Names of the causes it passes for.
-    fn passes_for(&self) -> &'static [&'static str];
+    /// True for a cause of this name that it passes for.
+    fn passes_for(&self, cause: &str) -> bool;
     /// Where a search starts, as [`crate::causes::Cause::starts`].
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
     /// The values with refinements of the law begun; the same where it has none.

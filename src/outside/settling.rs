@@ -89,8 +89,8 @@ impl Effect for Settling {
 }
 
 impl Outsider for Settling {
-    fn passes_for(&self) -> &'static [&'static str] {
-        &[
+    fn passes_for(&self, cause: &str) -> bool {
+        [
             "asymmetric_friction",
             "normal_load_variation",
             "joint_opening",
@@ -99,6 +99,7 @@ impl Outsider for Settling {
             "offset_step",
             "running_in",
         ]
+        .contains(&cause)
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let start = |share: &f64| {

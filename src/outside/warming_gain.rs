@@ -60,8 +60,8 @@ impl Effect for WarmingGain {
 }
 
 impl Outsider for WarmingGain {
-    fn passes_for(&self) -> &'static [&'static str] {
-        &["preload_loss", "running_in", "displacement_drift"]
+    fn passes_for(&self, cause: &str) -> bool {
+        ["preload_loss", "running_in", "displacement_drift"].contains(&cause)
     }
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         let whole: f64 = scale.lengths.iter().sum();
