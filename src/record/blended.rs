@@ -37,10 +37,18 @@ impl Blended {
         powers
     }
 
+    /// Sum of the products of differences `lag` samples apart, and of how many pairs.
+    fn products(&self, lag: usize) -> (f64, f64) {
+        let behind = self.differences.iter().skip(lag);
+        let products = self.differences.iter().zip(behind).map(|(a, b)| a * b);
+        let pairs = self.differences.len().saturating_sub(lag);
+        (products.sum(), pairs as f64)
+    }
+
     /// Mean square over that of white noise of unit variance.
     pub(super) fn mean_square(&self) -> f64 {
-        let sum: f64 = self.differences.iter().map(|d| d * d).sum();
-        sum / self.differences.len() as f64 / self.covariance(0)[0]
+        let (squares, samples) = self.products(0);
+        squares / samples / self.covariance(0)[0]
     }
 }
 
@@ -55,15 +63,10 @@ pub(super) fn moments(parts: &[&Blended]) -> (f64, f64) {
     let (mut squares, mut products, mut count, mut any) = (0.0, 0.0, 0.0, 0.0);
     let (mut square, mut product) = (Powers::default(), Powers::default());
     for part in parts {
-        let samples = part.differences.len() as f64;
+        let ((own, samples), (next, pairs)) = (part.products(0), part.products(1));
+        squares += own;
+        products += next;
         count += samples;
-        squares += part.differences.iter().map(|d| d * d).sum::<f64>();
-        products += part
-            .differences
-            .windows(2)
-            .map(|w| w[0] * w[1])
-            .sum::<f64>();
-        let pairs = (samples - 1.0).max(0.0);
         any += pairs;
         let (own, next) = (part.covariance(0), part.covariance(1));
         for power in 0..own.len() {
@@ -98,12 +101,8 @@ pub(super) fn beyond_first_order(parts: &[&Blended], a: f64) -> f64 {
     let of_lag = |lag: usize| {
         let (mut seen, mut expected, mut pairs) = (0.0, 0.0, 0.0);
         for part in parts {
-            let own = part.differences.len().saturating_sub(lag) as f64;
-            let both = part
-                .differences
-                .iter()
-                .zip(part.differences.iter().skip(lag));
-            seen += both.map(|(x, y)| x * y).sum::<f64>();
+            let (products, own) = part.products(lag);
+            seen += products;
             expected += own * at(a, &part.covariance(lag));
             pairs += own;
         }
