@@ -190,8 +190,9 @@ impl Cause for Creep {
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         vec![values[0], values[1], BESIDE, BESIDE]
     }
-    /// A decade on, where one side has nothing: the time constant slides in small steps only.
-    fn begun_anew(&self, values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
+    /// A decade on, where one side has nothing: the time constant slides in small steps only. Where both have some, half
+    /// a decade towards the middle of what the records show: three elements stand between those of another series as well.
+    fn begun_anew(&self, values: &[f64], scale: &Scale) -> Option<Vec<f64>> {
         let [compliance, time_constant, faster, slower] = *values else {
             return None;
         };
@@ -201,6 +202,30 @@ impl Cause for Creep {
         } else if slower < BESIDE && faster > BESIDE {
             let time_constant = time_constant / DECADE;
             Some(vec![faster * compliance, time_constant, 1.0, 1.0 / faster])
+        } else if slower > BESIDE && faster > BESIDE {
+            let up = time_constant * time_constant < scale.period * scale.duration();
+            let (ahead, behind) = if up {
+                (slower, faster)
+            } else {
+                (faster, slower)
+            };
+            let middle = 0.5 * (1.0 + ahead);
+            let beside = [0.5 * (1.0 + behind) / middle, 0.5 * ahead / middle];
+            let shift = DECADE.sqrt();
+            Some(match up {
+                true => vec![
+                    middle * compliance,
+                    time_constant * shift,
+                    beside[0],
+                    beside[1],
+                ],
+                false => vec![
+                    middle * compliance,
+                    time_constant / shift,
+                    beside[1],
+                    beside[0],
+                ],
+            })
         } else {
             None
         }
@@ -210,6 +235,35 @@ impl Cause for Creep {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What two neighbours share the element between them has; the outermost one is halfway to none.
+    #[test]
+    fn a_series_that_both_sides_have_begins_anew_half_a_decade_on() {
+        let scale = |duration: f64| Scale {
+            period: 0.1,
+            lengths: vec![duration],
+            ..Scale::default()
+        };
+        let begun = |duration: f64| {
+            Creep
+                .begun_anew(&[2.0, 1.0, 0.5, 1.5], &scale(duration))
+                .unwrap()
+        };
+        let compliances = |values: &[f64]| elements(values).map(|(compliance, _)| compliance);
+        for (duration, time_constant, expected) in [
+            (1e3, 10.0_f64.sqrt(), [2.5, 1.5, 1.5]),
+            (1.0, 1.0 / 10.0_f64.sqrt(), [1.5, 0.5, 2.5]),
+        ] {
+            let values = begun(duration);
+            assert!((values[1] - time_constant).abs() < 1e-12, "{values:?}");
+            let found = compliances(&values);
+            let both = found.iter().zip(expected);
+            assert!(
+                both.clone().all(|(c, e)| (c - e).abs() < 1e-12),
+                "{found:?}"
+            );
+        }
+    }
 
     #[test]
     fn a_held_force_creeps_to_its_end_by_the_exponential() {
