@@ -1,10 +1,11 @@
 //! Whether the drive turns between its samples, asked again beside the causes that were found.
 
+use super::coarsely::trials;
 use super::growing::leaves_structure;
 use super::however_worn::however_worn;
 use super::investigation::{Investigation, quickly_searched};
 use super::prepare::prepare;
-use super::trials::{ALARM, Effort, trials};
+use super::trials::{ALARM, Effort};
 use crate::identify::beginning::Beginning;
 use crate::identify::{Form, as_driven, baseline, refit_below};
 use crate::record::Record;

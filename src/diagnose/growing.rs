@@ -1,5 +1,6 @@
 //! Sets of causes, grown forward from the baseline and from other first causes, and pruned backward.
 
+use super::coarsely::trials;
 use super::forms::at_other_places;
 use super::gridded::stays_on_a_finer_grid;
 use super::loud::heard;
@@ -7,7 +8,7 @@ use super::places::{self, NEARLY};
 use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
-use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion, trials};
+use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion};
 use crate::identify::{Fit, Problem};
 
 /// Share of the misfit beyond noise that another set must explain of what a set leaves.

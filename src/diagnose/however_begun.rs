@@ -1,10 +1,11 @@
 //! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint.
 
+use super::coarsely::trials;
 use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
-use super::trials::{ALARM, Effort, Trial, one_leaves, penalty, trials};
+use super::trials::{ALARM, Effort, Trial, one_leaves, penalty};
 
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
 use crate::identify::{Fit, Form, baseline};

@@ -1,10 +1,11 @@
 //! Records of one beginning with what was found in them, and how likely that is beside other beginnings.
 
+use super::coarsely::trials_of;
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
-use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of, trials_of};
+use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of};
 use crate::causes::Cause;
 use crate::identify::beginning::{Beginning, past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};

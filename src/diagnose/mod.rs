@@ -4,6 +4,7 @@ pub mod amplitude_table;
 mod backwards;
 pub mod bootstrap;
 mod catalogue;
+mod coarsely;
 mod curves;
 mod drive;
 mod driven;

@@ -1,9 +1,10 @@
 //! The place of each cause in a set of several: who else would do there, beside the others.
 
+use super::coarsely::trials;
 use super::prepare::Bench;
 use super::probability::temperature;
 use super::tested::{Prospect, beyond_unseen};
-use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trial_of, trials};
+use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trial_of};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
 use crate::identify::weighing::deviation;

@@ -1,12 +1,13 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
 //! the baseline, the best set grown, its causes exchanged for better ones, and pruned.
 
+use super::coarsely::trials;
 use super::finely::finely;
 use super::growing::{grown, least, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
-use super::trials::{Effort, Trial, dispersion, trials};
+use super::trials::{Effort, Trial, dispersion};
 use crate::identify::{Fit, Problem, refit, smoothed};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;

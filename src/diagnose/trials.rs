@@ -89,7 +89,7 @@ pub enum Effort {
 const LEADING: usize = 4;
 
 /// Those that set the bound of a full one.
-const FIRST: usize = 2;
+pub(super) const FIRST: usize = 2;
 
 /// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more
 /// beside up to one other cause.
@@ -114,21 +114,17 @@ const NEAR: f64 = 0.02;
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
-/// Tries every cause beside the current set, best first; a refit without prospect of a misfit below
-/// `wanted` is given up.
-pub fn trials(
-    problem: &Problem,
-    scale: &Scale,
-    timed: bool,
-    current: &Fit,
-    (effort, wanted): (Effort, f64),
-) -> Vec<Trial> {
-    let usable = |c: &dyn Cause| timed || !c.needs_time();
-    trials_of(usable, problem, scale, current, (effort, wanted))
+/// Misfit below which a refit is worth going on, of which leaders have reached so much.
+pub(super) fn worth_reaching(current: &Fit, leaders: &[Trial], wanted: f64) -> f64 {
+    let lowest = leaders
+        .iter()
+        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
+    wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM)
 }
 
-/// The same of the causes that are `usable` alone.
-pub fn trials_of(
+/// Tries the `usable` causes beside the current set by every sample of a problem, best first; a refit without prospect of
+/// a misfit below `wanted` is given up.
+pub(super) fn of_all_samples(
     usable: impl Fn(&dyn Cause) -> bool,
     problem: &Problem,
     scale: &Scale,
@@ -209,10 +205,7 @@ pub fn trials_of(
         trial.unwrap_or_else(|| Trial::of((problem, scale), *cause, current, current.clone()))
     };
     let mut trials: Vec<Trial> = leading.par_iter().map(|one| try_one(one, wanted)).collect();
-    let lowest = trials
-        .iter()
-        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
-    let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
+    let bound = worth_reaching(current, &trials, wanted);
     trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
     if effort == Effort::Full {
         trials = settled((problem, scale), current, trials);
@@ -223,7 +216,11 @@ pub fn trials_of(
 
 /// Those of the trials that come near the best, refitted once more from where they ended: valleys are long, and rivals
 /// are told apart by little.
-fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Trial>) -> Vec<Trial> {
+pub(super) fn settled(
+    (problem, scale): (&Problem, &Scale),
+    current: &Fit,
+    trials: Vec<Trial>,
+) -> Vec<Trial> {
     let lowest = trials
         .iter()
         .min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));

@@ -1,0 +1,197 @@
+//! Causes of long records tried by few of their samples first: the others decide between those that come near.
+
+use super::places::scatter;
+use super::refinements::refined;
+use super::trials::{
+    ALARM, Effort, FIRST, Trial, UNREFINED, of_all_samples, settled, worth_reaching,
+};
+use crate::causes::{Cause, Scale};
+use crate::identify::{Fit, Problem, refit, refit_below, suited};
+use rayon::prelude::*;
+
+/// Independent samples that a first look is content with. What a cause has to bring grows with a record, a hundredth
+/// of the noise's variance per sample: of so many that is 5½ standard deviations of what is seen.
+const ENOUGH: usize = 3000;
+
+/// Share of what a cause takes away by which its values, told by few samples, may leave more than they will.
+const ASTRAY: f64 = 0.03;
+
+/// Standard deviations of what few samples say of a fall by which less than is wanted may be enough.
+const SCATTER: f64 = 3.0;
+
+/// Tries every cause beside the current set, best first; a refit without prospect of a misfit below `wanted` is given up.
+pub fn trials(
+    problem: &Problem,
+    scale: &Scale,
+    timed: bool,
+    current: &Fit,
+    asked: (Effort, f64),
+) -> Vec<Trial> {
+    let usable = |c: &dyn Cause| timed || !c.needs_time();
+    trials_of(usable, problem, scale, current, asked)
+}
+
+/// The same of the causes that are `usable` alone.
+pub fn trials_of(
+    usable: impl Fn(&dyn Cause) -> bool,
+    problem: &Problem,
+    scale: &Scale,
+    current: &Fit,
+    asked: (Effort, f64),
+) -> Vec<Trial> {
+    match Coarsely::of(problem, current) {
+        Some(coarsely) => coarsely.trials_of(usable, (problem, scale), current, asked),
+        None => of_all_samples(usable, problem, scale, current, asked),
+    }
+}
+
+/// A problem with few of its samples, and a set that suits these.
+struct Coarsely {
+    problem: Problem,
+    current: Fit,
+    /// Samples of which one was left.
+    every: f64,
+}
+
+impl Coarsely {
+    /// `None` of records that are short, and of a set that does not suit few samples as well as all.
+    fn of(problem: &Problem, current: &Fit) -> Option<Coarsely> {
+        let few = problem.coarser(ENOUGH)?;
+        let own = refit(&few, current, current.effects.clone());
+        let (rows, all) = (few.rows() as f64, problem.rows() as f64);
+        let of_all = current.misfit / all;
+        let suits = own.misfit < (1.0 + ASTRAY) * of_all * rows + of_all * scatter(rows);
+        suits.then_some(Coarsely {
+            every: all / rows,
+            current: own,
+            problem: few,
+        })
+    }
+
+    /// Misfit of few samples that answers to one of all.
+    fn wanted(&self, current: &Fit, wanted: f64) -> f64 {
+        let fall = (current.misfit - wanted) / self.every;
+        // Two models that differ by λ leave λ ± 2√λ.
+        self.current.misfit - fall + SCATTER * 2.0 * fall.max(0.0).sqrt()
+    }
+
+    /// Trials by all samples, from where few led.
+    fn trials_of(
+        &self,
+        usable: impl Fn(&dyn Cause) -> bool,
+        (problem, scale): (&Problem, &Scale),
+        current: &Fit,
+        (effort, wanted): (Effort, f64),
+    ) -> Vec<Trial> {
+        let asked = (effort, self.wanted(current, wanted));
+        let few = of_all_samples(usable, &self.problem, scale, &self.current, asked);
+        let onward = |few: &Trial, bound: f64| onward((problem, scale), current, few, bound);
+        let (leading, others) = few.split_at(FIRST.min(few.len()));
+        let mut trials: Vec<Trial> = leading.par_iter().map(|t| onward(t, wanted)).collect();
+        let bound = worth_reaching(current, &trials, wanted);
+        trials.par_extend(others.into_par_iter().map(|t| onward(t, bound)));
+        if effort == Effort::Full {
+            trials = settled((problem, scale), current, trials);
+        }
+        trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        trials
+    }
+}
+
+/// A cause as few samples have told it, fitted to all where it comes near a misfit of `bound`.
+fn onward((problem, scale): (&Problem, &Scale), current: &Fit, few: &Trial, bound: f64) -> Trial {
+    let fit = match few.own() {
+        None => current.clone(),
+        Some(_) => {
+            let begun = suited(problem, &few.fit, few.fit.effects.clone());
+            let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
+            let astray = ASTRAY * (current.misfit - begun.misfit).max(0.0) + ALARM;
+            match begun.misfit - astray < bound {
+                true => {
+                    let misfit = current.misfit;
+                    let start = Fit { misfit, ..begun };
+                    let fit = refit_below(problem, &start, start.effects.clone(), bound);
+                    match fit.misfit < bound {
+                        true => refined((problem, scale), few.cause, current.misfit, fit),
+                        false => fit,
+                    }
+                }
+                false => begun,
+            }
+        }
+    };
+    Trial::of((problem, scale), few.cause, current, fit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::prepare::{Bench, prepare};
+    use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, baseline};
+    use crate::record::Record;
+    use crate::record::noise::tests::drawn;
+
+    /// A record of `samples` a quarter of whose stiffness creeps, in white noise.
+    fn creeping(samples: u32) -> Bench {
+        let mut noise = drawn(20261128);
+        let time: Vec<f64> = (0..samples).map(|i| 0.01 * f64::from(i)).collect();
+        let level = |t: &f64| if *t < 80.0 { 40.0 } else { 60.0 };
+        let force: Vec<f64> = time.iter().map(|t| level(t) * (0.5 * t).sin()).collect();
+        let mut crept = 0.0;
+        let mut lagged = |f: &f64| {
+            crept += (0.25 * f - crept) * 0.01 / 0.6;
+            1e-8 * (f + crept)
+        };
+        let record = Record {
+            name: "creeping".to_string(),
+            displacement: force.iter().map(|f| lagged(f) + 3e-9 * noise()).collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        prepare(Form::Play, &[record], &[Beginning::default()])
+    }
+
+    /// What few samples have told is fitted to all, and weighed by all.
+    #[test]
+    fn many_samples_are_tried_by_few_with_the_same_end() {
+        let bench = creeping(16_000);
+        let Bench { train, scale, .. } = &bench;
+        let first = baseline(train);
+        let asked = (Effort::Full, f64::INFINITY);
+        let coarsely = Coarsely::of(train, &first).unwrap();
+        assert!(coarsely.every > 3.0 && coarsely.problem.rows() < train.rows() / 3);
+        let few = trials(train, scale, true, &first, asked);
+        let all = of_all_samples(|_| true, train, scale, &first, asked);
+        assert_eq!(few.len(), all.len());
+        let best = [&few, &all].map(|trials| &trials[0]);
+        assert!(best.iter().all(|t| t.cause.name() == "creep"));
+        let apart = best[0].fit.misfit - best[1].fit.misfit;
+        assert!(apart.abs() < 1.0, "{apart}");
+        for own in &few {
+            let (left, _) = train.misfit(&own.fit.predict(train));
+            assert!(
+                (left / own.fit.misfit - 1.0).abs() < 1e-9,
+                "{}",
+                own.cause.name()
+            );
+        }
+        // As many trials of a short record are those of all its samples.
+        let short = creeping(3000);
+        assert!(Coarsely::of(&short.train, &baseline(&short.train)).is_none());
+    }
+
+    /// A set that leaves more of few samples than of all has to be judged by all.
+    #[test]
+    fn few_samples_that_a_set_does_not_suit_are_not_asked() {
+        let bench = creeping(16_000);
+        let first = baseline(&bench.train);
+        let better = Fit {
+            misfit: 0.9 * first.misfit,
+            ..first.clone()
+        };
+        assert!(Coarsely::of(&bench.train, &first).is_some());
+        assert!(Coarsely::of(&bench.train, &better).is_none());
+    }
+}
