@@ -69,7 +69,7 @@ pub(super) fn candidates(
     before: &[Prediction],
     left: f64,
 ) -> Vec<Candidate> {
-    let probabilities = probability::probabilities(found, left);
+    let probabilities = probability::probabilities(&bench.train, found, left);
     let mut all: Vec<Candidate> = found
         .trials
         .par_iter()

@@ -16,7 +16,7 @@ const WORN_ON: &str = "once more: wear may go on from record to record";
 
 /// Share of what one cause takes away that leaves noise alone from which another that wears on may be its rival: a search
 /// from there may find the rest.
-const RIVAL: f64 = 0.5;
+const RIVAL: f64 = 0.8;
 
 /// Searches for causes in records however they begin, and once more where wear may go on from one to the next.
 ///

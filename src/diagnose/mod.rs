@@ -33,6 +33,7 @@ mod outsiders;
 mod places;
 pub mod prepare;
 mod probability;
+mod ready;
 mod refinements;
 pub mod search;
 mod sizes;
@@ -53,8 +54,8 @@ use drive::without_drive_noise;
 use experiment::dummy::Settled;
 use findings::{NoiseFinding, Unexplained, Verdict};
 use investigation::Investigation;
-use judged_channel::form;
 use prepare::Bench;
+use ready::ready;
 use search::Found;
 use structure::structure;
 use unseen_events::investigated;
@@ -62,10 +63,8 @@ use unseen_events::investigated;
 use crate::identify::{Fit, baseline, exported, refit, smoothed};
 use crate::joint::JointError;
 use crate::record::Record;
-use crate::record::evened::evened;
 use crate::record::noise::independence;
 use crate::record::outliers::struck_out;
-use crate::record::thinned::thinned;
 
 /// Diagnoses the records of one joint.
 ///
@@ -89,27 +88,10 @@ pub fn diagnose_with(
 ) -> Result<Findings, JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
     let all: usize = records.iter().map(Record::len).sum();
-    let struck = records.iter().map(struck_out);
-    let even: Vec<(Record, bool)> = struck
-        .map(|r| match evened(&r) {
-            Some(even) => (even, true),
-            None => (r, false),
-        })
-        .collect();
-    let uneven: Vec<String> = even
-        .iter()
-        .filter(|(_, uneven)| *uneven)
-        .map(|(r, _)| r.name.clone())
-        .collect();
-    let thin: Vec<Record> = even
-        .into_iter()
-        .map(|(r, _)| thinned(&r, MANY * r.len() / all.max(1)).unwrap_or(r))
-        .collect();
     let given: Vec<usize> = records.iter().map(Record::len).collect();
-    let records = thin.as_slice();
+    let ready = ready(records);
+    let (records, form) = (ready.records.as_slice(), ready.form);
     let used: usize = records.iter().map(Record::len).sum();
-    // Once for all: what is taken off one channel makes the other look like the drive.
-    let form = form(records);
     let calm = without_drive_noise(form, records);
     let Investigation { bench, found } = investigated((form, &calm), timed, &mut progress);
     progress("measuring the gain on held-out cycles");
@@ -121,8 +103,8 @@ pub fn diagnose_with(
     findings.outlook.dummy = settled.said;
     let said = findings.records.iter_mut().zip(given);
     said.for_each(|((_, samples, _), given)| *samples = given);
-    if !uneven.is_empty() {
-        findings.notes.push(words::was_uneven(&uneven));
+    if !ready.uneven.is_empty() {
+        findings.notes.push(words::was_uneven(&ready.uneven));
     }
     if calm != records {
         findings.notes.push(
@@ -142,9 +124,6 @@ pub fn diagnose_with(
 
 /// Share of the judged channel's variance that a joint has to answer to be one, where no repeated cycles tell the noise.
 const FOLLOWS: f64 = 0.5;
-
-/// Samples of all records together beyond which densely sampled cycles are thinned.
-const MANY: usize = 30_000;
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
 /// less is the least bad of wrong explanations.
@@ -245,7 +224,10 @@ fn assemble(
         &structure_after,
         (bench.most_left(), bench.is_read_to_the_end()),
         chi,
-        (probability::unlisted(&found, beyond_noise), toned.is_some()),
+        (
+            probability::unlisted(&bench.train, &found, beyond_noise),
+            toned.is_some(),
+        ),
     );
     let causes = catalogue::named(bench, &found, &whole);
     let (left, beyond_noise) = match verdict {
@@ -261,7 +243,7 @@ fn assemble(
     let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
     let astray = (!goes_together).then(|| words::goes_astray(follows));
     let mut notes: Vec<String> = astray.into_iter().collect();
-    notes.extend(words::notes(records, bench));
+    notes.extend(words::notes(records, bench, &whole.effects));
     notes.extend(said);
     notes.extend(whereabouts::of_jumps(records, &whole.effects));
     let (judged, unit) = bench.whole.operators.form.judged();

@@ -35,7 +35,7 @@ pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) ->
     let asked = |one: &dyn Outsider, place: Option<usize>| {
         place.is_some() || best.effects.is_empty() || one.stands_for_one()
     };
-    let tried: Vec<(Option<usize>, &dyn Outsider)> = usable(timed)
+    let tried: Vec<(Option<usize>, &dyn Outsider)> = usable(bench, timed)
         .into_iter()
         .flat_map(|one| places.iter().map(move |place| (*place, one)))
         .filter(|(place, one)| asked(*one, *place))
@@ -51,10 +51,15 @@ pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) ->
     said.into_iter().map(|(_, _, said)| said).collect()
 }
 
-/// Laws outside the catalogue that records tell anything of.
-fn usable(timed: bool) -> Vec<&'static dyn Outsider> {
+/// Laws outside the catalogue that records tell anything of, of joints made anew none of one that goes on from record to
+/// record.
+fn usable(bench: &Bench, timed: bool) -> Vec<&'static dyn Outsider> {
+    let goes_on = bench.train.records.iter().any(|r| r.beginning.goes_on);
     let all = OUTSIDE.iter().copied();
-    all.filter(|one| timed || !one.needs_time()).collect()
+    let told = |one: &&dyn Outsider| timed || !one.needs_time();
+    all.filter(told)
+        .filter(|one| !(goes_on && one.is_made_anew()))
+        .collect()
 }
 
 /// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring: of all
@@ -65,7 +70,7 @@ pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
     let margin = alarm(&bench.train);
     let passes = |one: &dyn Outsider, k: usize| one.passes_for(set[k].effect.name());
     let all = 0..set.len();
-    let alone = usable(timed).into_par_iter().any(|one| {
+    let alone = usable(bench, timed).into_par_iter().any(|one| {
         let stands = set.len() > 1 || one.stands_for_one();
         let asked = stands && all.clone().any(|k| passes(one, k));
         asked && beside(bench, found, (one, Vec::new()), margin).is_some()
@@ -74,7 +79,7 @@ pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
         return all.collect();
     }
     let likelier = |one, k| beside(bench, found, (one, others(set, k)), margin);
-    let tried = usable(timed)
+    let tried = usable(bench, timed)
         .into_par_iter()
         .filter(|one| one.stands_for_one() && set.len() > 1)
         .flat_map_iter(|one| all.clone().map(move |k| (k, one)))

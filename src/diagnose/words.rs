@@ -137,7 +137,7 @@ pub fn not_identifiable(records: &[Record], slip_force_is_bounded: bool) -> Vec<
 }
 
 /// Assumptions made on the way.
-pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
+pub fn notes(records: &[Record], bench: &Bench, effects: &[Acting]) -> Vec<String> {
     let mut notes = Vec::new();
     if !bench.noise_is_repeated() {
         notes.push("Too few cycles repeat for a noise estimate without a model: what the best model leaves is taken as noise, so that structure hidden in it cannot be told from noise.".to_string());
@@ -151,7 +151,7 @@ pub fn notes(records: &[Record], bench: &Bench) -> Vec<String> {
     if bench.whole.records.iter().any(|r| r.between.straight) {
         notes.push("The drive was taken to go straight from sample to sample, as one does that a program made: turns between samples, as a measured one has, leave more.".to_string());
     }
-    if bench.whole.wears_on {
+    if bench.whole.wears_on && effects.iter().any(|a| a.effect.lasting() > 0) {
         notes.push("Wear goes on from record to record: they were taken for tests of one joint after the other, in the order given.".to_string());
     }
     for (k, record) in records.iter().enumerate() {

@@ -25,6 +25,10 @@ pub trait Outsider: Effect {
     fn stands_for_one(&self) -> bool {
         false
     }
+    /// True for a law of joints that are made anew for every test.
+    fn is_made_anew(&self) -> bool {
+        false
+    }
     /// What it may be, as a clause.
     fn words(&self) -> &'static str;
     /// This law as the effect it brings to the simulation.

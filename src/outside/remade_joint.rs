@@ -100,6 +100,9 @@ impl Outsider for RemadeJoint {
     fn plausible(&self, _values: &[f64], _scale: &Scale) -> bool {
         true
     }
+    fn is_made_anew(&self) -> bool {
+        true
+    }
     fn stands_for_one(&self) -> bool {
         true
     }

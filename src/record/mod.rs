@@ -4,6 +4,7 @@ mod blended;
 pub mod calm;
 pub mod cycles;
 pub mod evened;
+pub mod jolts;
 pub mod jumps;
 pub mod mains;
 pub mod noise;

@@ -279,7 +279,7 @@ fn bridged(channel: &[f64], i: usize) -> f64 {
 /// The size of most deviations: their upper quartile, for half of them are zero by construction where a channel is
 /// noise; no less than the median of the others, for where it rises or bends by more than its noise nearly all are zero. (About one
 /// sample the others are what that sample does to its neighbours' prospects.)
-fn typical(deviations: Vec<f64>) -> f64 {
+pub(super) fn typical(deviations: Vec<f64>) -> f64 {
     let seen = deviations.iter().copied().filter(|d| *d > 0.0).collect();
     quantile(deviations, 0.75).max(quantile(seen, 0.5))
 }
