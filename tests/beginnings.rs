@@ -135,5 +135,8 @@ fn joints_that_go_on_from_test_to_test_or_are_new_are_clean() {
             findings.notes.iter().any(|note| note.contains(&said))
         });
         assert_eq!(noted, go_on, "{place}: {:?}", findings.notes);
+        // Nothing of them wears.
+        let worn = findings.notes.iter().any(|n| n.contains("Wear goes on"));
+        assert!(!worn, "{place}: {:?}", findings.notes);
     }
 }

@@ -198,3 +198,29 @@ fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider, enough: f64) -> Option
     fits.filter(own)
         .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::prepare::prepare;
+    use crate::identify::Form;
+    use crate::identify::beginning::Beginning;
+    use crate::record::Record;
+
+    #[test]
+    fn a_joint_that_goes_on_is_none_that_was_made_anew() {
+        let force: Vec<f64> = (0..400).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            displacement: force.iter().map(|f| 1e-8 * f).collect(),
+            force,
+            ..Record::default()
+        };
+        let virgin = [Beginning::default(), Beginning::default()];
+        let mut bench = prepare(Form::Play, &[record.clone(), record], &virgin);
+        let told = |bench: &Bench| usable(bench, true).iter().any(|one| one.is_made_anew());
+        assert!(told(&bench));
+        bench.train.records[1].beginning.goes_on = true;
+        assert!(!told(&bench));
+        assert_eq!(usable(&bench, true).len(), OUTSIDE.len() - 1);
+    }
+}
