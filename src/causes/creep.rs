@@ -210,22 +210,13 @@ impl Cause for Creep {
                 (faster, slower)
             };
             let middle = 0.5 * (1.0 + ahead);
-            let beside = [0.5 * (1.0 + behind) / middle, 0.5 * ahead / middle];
-            let shift = DECADE.sqrt();
-            Some(match up {
-                true => vec![
-                    middle * compliance,
-                    time_constant * shift,
-                    beside[0],
-                    beside[1],
-                ],
-                false => vec![
-                    middle * compliance,
-                    time_constant / shift,
-                    beside[1],
-                    beside[0],
-                ],
-            })
+            let (of_behind, of_ahead) = (0.5 * (1.0 + behind) / middle, 0.5 * ahead / middle);
+            let (shift, faster, slower) = match up {
+                true => (DECADE.sqrt(), of_behind, of_ahead),
+                false => (1.0 / DECADE.sqrt(), of_ahead, of_behind),
+            };
+            let compliance = middle * compliance;
+            Some(vec![compliance, time_constant * shift, faster, slower])
         } else {
             None
         }

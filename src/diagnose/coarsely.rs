@@ -2,12 +2,9 @@
 
 use super::places::scatter;
 use super::refinements::refined;
-use super::trials::{
-    ALARM, Effort, FIRST, Trial, UNREFINED, of_all_samples, settled, worth_reaching,
-};
+use super::trials::{ALARM, Effort, FIRST, Trial, UNREFINED, led, of_all_samples};
 use crate::causes::{Cause, Scale};
 use crate::identify::{Fit, Problem, refit, refit_below, suited};
-use rayon::prelude::*;
 
 /// Independent samples that a first look is content with. What a cause has to bring grows with a record, a hundredth
 /// of the noise's variance per sample: of so many that is 5½ standard deviations of what is seen.
@@ -85,16 +82,11 @@ impl Coarsely {
     ) -> Vec<Trial> {
         let asked = (effort, self.wanted(current, wanted));
         let few = of_all_samples(usable, &self.problem, scale, &self.current, asked);
+        let leading: Vec<&Trial> = few.iter().take(FIRST).collect();
+        let others = few.iter().skip(FIRST).collect();
         let onward = |few: &Trial, bound: f64| onward((problem, scale), current, few, bound);
-        let (leading, others) = few.split_at(FIRST.min(few.len()));
-        let mut trials: Vec<Trial> = leading.par_iter().map(|t| onward(t, wanted)).collect();
-        let bound = worth_reaching(current, &trials, wanted);
-        trials.par_extend(others.into_par_iter().map(|t| onward(t, bound)));
-        if effort == Effort::Full {
-            trials = settled((problem, scale), current, trials);
-        }
-        trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-        trials
+        let asked = (effort, wanted);
+        led((problem, scale), current, asked, (leading, others), onward)
     }
 }
 

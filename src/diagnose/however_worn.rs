@@ -123,8 +123,7 @@ impl Investigation {
 mod tests {
     use super::*;
     use crate::causes::find;
-    use crate::diagnose::prepare::Bench;
-    use crate::diagnose::prepare::prepare;
+    use crate::diagnose::prepare::{Bench, prepare};
     use crate::identify::beginning::Beginning;
     use crate::identify::{Fit, Problem, baseline};
     use crate::joint::effect::Acting;

@@ -114,14 +114,6 @@ const NEAR: f64 = 0.02;
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
 const BEHIND: f64 = 0.15;
 
-/// Misfit below which a refit is worth going on, of which leaders have reached so much.
-pub(super) fn worth_reaching(current: &Fit, leaders: &[Trial], wanted: f64) -> f64 {
-    let lowest = leaders
-        .iter()
-        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
-    wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM)
-}
-
 /// Tries the `usable` causes beside the current set by every sample of a problem, best first; a refit without prospect of
 /// a misfit below `wanted` is given up.
 pub(super) fn of_all_samples(
@@ -204,8 +196,30 @@ pub(super) fn of_all_samples(
             .fold(None, of_form);
         trial.unwrap_or_else(|| Trial::of((problem, scale), *cause, current, current.clone()))
     };
-    let mut trials: Vec<Trial> = leading.par_iter().map(|one| try_one(one, wanted)).collect();
-    let bound = worth_reaching(current, &trials, wanted);
+    let leading: Vec<&Scored> = leading.iter().collect();
+    led(
+        (problem, scale),
+        current,
+        (effort, wanted),
+        (leading, others),
+        try_one,
+    )
+}
+
+/// Trials of what leads, then those of the others as far as they are worth going on behind those, best first.
+pub(super) fn led<T: Sync>(
+    (problem, scale): (&Problem, &Scale),
+    current: &Fit,
+    (effort, wanted): (Effort, f64),
+    (leading, others): (Vec<&T>, Vec<&T>),
+    try_one: impl Fn(&T, f64) -> Trial + Sync,
+) -> Vec<Trial> {
+    let leading = leading.into_par_iter();
+    let mut trials: Vec<Trial> = leading.map(|one| try_one(one, wanted)).collect();
+    let lowest = trials
+        .iter()
+        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
+    let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
     trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
     if effort == Effort::Full {
         trials = settled((problem, scale), current, trials);
@@ -216,11 +230,7 @@ pub(super) fn of_all_samples(
 
 /// Those of the trials that come near the best, refitted once more from where they ended: valleys are long, and rivals
 /// are told apart by little.
-pub(super) fn settled(
-    (problem, scale): (&Problem, &Scale),
-    current: &Fit,
-    trials: Vec<Trial>,
-) -> Vec<Trial> {
+fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Trial>) -> Vec<Trial> {
     let lowest = trials
         .iter()
         .min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));

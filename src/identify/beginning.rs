@@ -10,7 +10,7 @@ use super::gone_on::{from_reading, gone_on};
 use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::Problem;
-use crate::record::cycles::{cycles, span, turning_points};
+use crate::record::cycles::{span, turning_points};
 use crate::record::noise::independence;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -337,17 +337,11 @@ fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// Samples of a cycle behind the beginning that a dictionary needs.
-const PER_CYCLE: usize = 40;
-
 /// The record with every sample of its beginning and fewer behind, which tell the joint but not where it was before.
 fn thinned(form: Form, record: &Prepared, forgotten: usize) -> Prepared {
-    let (input, judged) = record.channels(form);
-    let cycles = cycles(input);
-    let shortest = cycles.iter().map(|cycle| cycle.len()).min().unwrap_or(1);
-    let every = (shortest / PER_CYCLE).max(1);
+    let every = record.sparsest_of_cycles(form).unwrap_or(1);
     let mut few = record.clone();
-    few.thin(form, (forgotten, every, judged.len()));
+    few.thin(form, (forgotten, every, record.time.len()));
     few
 }
 

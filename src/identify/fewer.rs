@@ -57,12 +57,17 @@ impl Problem {
 }
 
 impl Prepared {
-    /// Most samples of which one may stay, so that [`PER_CYCLE`] are left of the shortest cycle.
+    /// Most samples of which one may stay, so that [`PER_CYCLE`] are left of the shortest cycle; `None` without cycles.
+    pub(super) fn sparsest_of_cycles(&self, form: Form) -> Option<usize> {
+        let cycles = cycles(self.channels(form).0);
+        let shortest = cycles.iter().map(|c| c.len()).min()?;
+        Some((shortest / PER_CYCLE).max(1))
+    }
+
+    /// The same, of a record without cycles as of one.
     fn sparsest(&self, form: Form) -> usize {
-        let (input, _) = self.channels(form);
-        let cycles = cycles(input);
-        let shortest = cycles.iter().map(|c| c.len()).min().unwrap_or(input.len());
-        (shortest / PER_CYCLE).max(1)
+        let as_one = || (self.time.len() / PER_CYCLE).max(1);
+        self.sparsest_of_cycles(form).unwrap_or_else(as_one)
     }
 
     /// Mean distance of samples \[s\].

@@ -1,10 +1,7 @@
 //! Jolts of a load: what stands alone in the force where the load goes on at another rate.
 
 use super::Record;
-use super::outliers::typical;
-
-/// Samples next to the judged one that take no part, as of what stands alone.
-const APART: usize = 2;
+use super::outliers::{APART, typical};
 
 /// Samples of a stretch whose rate is told.
 const ASKED: usize = 6;

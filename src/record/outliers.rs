@@ -13,7 +13,7 @@ pub enum Neighbours {
 }
 
 /// Samples next to the judged one that take no part: what stands alone may be a few samples wide.
-const APART: usize = 2;
+pub(super) const APART: usize = 2;
 
 /// Samples of one side that are asked.
 const ASKED: usize = 4;
