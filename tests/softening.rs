@@ -23,7 +23,10 @@ fn four_parameter(effects: Vec<Acting>) -> Joint {
 }
 
 fn across(stiffness: f64) -> Vec<Acting> {
-    vec![acting("cubic_stiffness", &[0.0, 0.0, stiffness, 0.0])]
+    vec![acting(
+        "cubic_stiffness",
+        &[0.0, 0.0, stiffness, 0.0, 0.0, 0.0],
+    )]
 }
 
 /// Largest force of `one_slider(across(-1e15))`, where the slider slips: (500 + 5e7 u) − 1e15 U³ with
@@ -34,33 +37,50 @@ fn peak() -> f64 {
     500.0 + 5e7 * slip - 1e15 * displacement.powi(3)
 }
 
+/// Largest force of the same cube across the contact, which K_1 then only passes on: (500 + 5e7 u) − 1e15 u³ has its
+/// peak at 5e7 = 3e15 u².
+fn peak_of_contact() -> f64 {
+    let slip = (5e7_f64 / 3e15).sqrt();
+    500.0 + 5e7 * slip - 1e15 * slip.powi(3)
+}
+
 #[test]
 fn a_force_beyond_the_peak_is_refused_and_changes_nothing() {
-    let joint = one_slider(across(-1e15));
     assert!((peak() - 3479.2).abs() < 0.1, "{}", peak());
+    refuses_beyond(peak(), &[0.0, 0.0, -1e15, 0.0, 0.0, 0.0]);
+    assert!(
+        (peak_of_contact() - 4803.3).abs() < 0.1,
+        "{}",
+        peak_of_contact()
+    );
+    refuses_beyond(peak_of_contact(), &[0.0, 0.0, 0.0, 0.0, -1e15, 0.0]);
+}
+
+fn refuses_beyond(peak: f64, cube: &[f64]) {
+    let joint = one_slider(vec![acting("cubic_stiffness", cube)]);
     for side in [1.0, -1.0] {
         let mut simulation = Simulation::new(&joint, Drive::Force).unwrap();
         for share in [0.3, 0.6, 0.9, 0.999] {
-            simulation.step(share, side * share * peak()).unwrap();
+            simulation.step(share, side * share * peak).unwrap();
         }
         let before = simulation.state();
-        for force in [1.001 * peak(), 3960.0, 4950.0, 9900.0, 1e6] {
+        for force in [1.001, 1.14, 1.42, 2.85, 300.0].map(|share| share * peak) {
             let refused = simulation.step(2.0, side * force);
             assert!(
                 matches!(refused, Err(JointError::NoEquilibrium { force: asked, most, cause: Some("cubic_stiffness"), .. })
-                    if asked == side * force && (most - side * peak()).abs() < 1e-9 * peak()),
+                    if asked == side * force && (most - side * peak).abs() < 1e-9 * peak),
                 "{refused:?}"
             );
             assert_eq!(simulation.state(), before);
         }
-        assert!(simulation.step(2.0, 0.5 * side * peak()).is_ok());
+        assert!(simulation.step(2.0, 0.5 * side * peak).is_ok());
     }
 }
 
 /// Of laws that fall at once and for ever: 1e57 m and no number at all had been answered.
 #[test]
 fn a_force_that_runs_away_has_no_answer() {
-    let runs_away = [1.78e-15, -1e-8, -9e17, -2e8];
+    let runs_away = [1.78e-15, -1e-8, -9e17, -2e8, 0.0, 0.0];
     let joint = four_parameter(vec![acting("cubic_stiffness", &runs_away)]);
     let mut simulation = Simulation::new(&joint, Drive::Force).unwrap();
     for (second, force) in [100.0, 200.0, 300.0, 400.0, 10.0, 0.0]
@@ -145,7 +165,10 @@ fn driven_in_displacement_a_softening_joint_goes_past_its_peak() {
 /// A cube that hardens uses up the compliance of joint and spring: beyond, U falls as F rises.
 #[test]
 fn a_spring_law_past_its_fold_is_refused_in_either_drive() {
-    let joint = one_slider(vec![acting("cubic_stiffness", &[-1e-16, 0.0, 0.0, 0.0])]);
+    let joint = one_slider(vec![acting(
+        "cubic_stiffness",
+        &[-1e-16, 0.0, 0.0, 0.0, 0.0, 0.0],
+    )]);
     // 3e-16 F² is then 1/5e7 + 1/2e8.
     let fold = (2.5e-8_f64 / 3e-16).sqrt();
     let mut by_force = Simulation::new(&joint, Drive::Force).unwrap();
@@ -186,7 +209,7 @@ fn a_spring_law_past_its_fold_is_refused_in_either_drive() {
 fn a_negative_opening_compliance_is_refused_where_it_outweighs_the_joint() {
     let joint = one_slider(vec![acting(
         "joint_opening",
-        &[-3e-8, 1000.0, 0.0, 0.0, 0.0],
+        &[-3e-8, 1000.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     )]);
     for (drive, good, beyond) in [
         (Drive::Force, 900.0, 1500.0),

@@ -54,13 +54,15 @@ fn errors(effects: Vec<Acting>) -> [f64; 3] {
 #[test]
 fn causes_without_a_history_of_their_own_answer_alike_at_any_step() {
     let cases = [
-        acting("pinning", &[1e7, 3e-6, 4e-6, 1.0, 0.0]),
+        acting("pinning", &[1e7, 3e-6, 4e-6, 1e-6, 0.8]),
         acting("clearance", &[2e-6, 20.0, 0.0]),
         acting("slack_growth", &[1e-8, 100.0, 20.0, 0.0]),
-        acting("cubic_stiffness", &[1e-14, 1e-5, 0.0, 0.0]),
-        acting("cubic_stiffness", &[0.0, 0.0, 1e19, 1e9]),
-        acting("joint_opening", &[2e-9, 50.0, 0.0, 0.0, 0.0]),
-        acting("joint_opening", &[0.0, 0.0, 0.0, 1e6, 1e-6]),
+        acting("cubic_stiffness", &[1e-14, 1e-5, 0.0, 0.0, 0.0, 0.0]),
+        acting("cubic_stiffness", &[0.0, 0.0, 1e19, 1e9, 0.0, 0.0]),
+        acting("cubic_stiffness", &[0.0, 0.0, 0.0, 0.0, 1e19, 1e9]),
+        acting("joint_opening", &[2e-9, 50.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        acting("joint_opening", &[0.0, 0.0, 0.0, 1e6, 1e-6, 0.0, 0.0]),
+        acting("joint_opening", &[0.0, 0.0, 0.0, 0.0, 0.0, 1e6, 1e-6]),
         acting("asymmetric_friction", &[0.2]),
     ];
     for case in cases {

@@ -1,7 +1,7 @@
 //! `ac_coupling`: a channel forgets what stands still.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::parameters::Parameter;
 
 /// A first-order high-pass, `U_meas = U − l` with `l̇ = 2π f_c (U − l)`, solved exactly for a
@@ -57,7 +57,7 @@ impl Effect for AcCoupling {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(values[0] != 0.0, values[2] != 0.0)
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {

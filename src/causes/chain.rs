@@ -2,7 +2,7 @@
 
 use super::Scale;
 use super::creep::lag;
-use crate::joint::effect::Place;
+use crate::joint::effect::{Place, Places};
 
 /// What follows a channel with a first-order lag, `l̇ = r (U − l)` from `begins`, at every sample; exact for a
 /// channel that goes straight from sample to sample.
@@ -23,10 +23,11 @@ pub(super) fn lagging(rate: f64, begins: f64, time: &[f64], channel: &[f64]) -> 
 }
 
 /// Where such a law acts with its values: on the sensor's channel unless it is the load cell's.
-pub(super) fn places(of_sensor: bool, of_cell: bool) -> [Option<Place>; 2] {
+pub(super) fn places(of_sensor: bool, of_cell: bool) -> Places {
     [
         (of_sensor || !of_cell).then_some(Place::DisplacementChannel),
         of_cell.then_some(Place::ForceChannel),
+        None,
     ]
 }
 

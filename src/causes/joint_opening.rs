@@ -1,7 +1,7 @@
 //! `joint_opening`: the joint is softer on one side of a force.
 
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Response};
+use crate::joint::effect::{Effect, Place, Places, Response};
 use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
 
@@ -12,10 +12,11 @@ use crate::joint::parameters::Parameter;
 ///
 /// Or a stiffness across the whole joint on one side of rest, of surfaces that meet there:
 /// `f = k_c max(U, 0)`, and for `k_c < 0`, on the other side, `f = −|k_c| max(−U, 0)`; where they meet
-/// little by little, rounded over `u_c` likewise.
+/// little by little, rounded over `u_c` likewise. Or the same across the contact alone, over the slip u behind K_1, with
+/// `k_s` and `u_s`.
 pub struct JointOpening;
 
-static PARAMETERS: [Parameter; 5] = [
+static PARAMETERS: [Parameter; 7] = [
     Parameter {
         name: "compliance",
         symbol: "c_o",
@@ -67,6 +68,26 @@ static PARAMETERS: [Parameter; 5] = [
         neutral: Some(0.0),
         meaning: "displacement over which the surfaces meet; 0: at once",
     },
+    Parameter {
+        name: "contact_stiffness",
+        symbol: "k_s",
+        unit: "N/m",
+        lower: -1e15,
+        upper: 1e15,
+        vanishes_at: Some(0.0),
+        neutral: Some(0.0),
+        meaning: "stiffness that the contact has more on one side of rest; its sign tells the side",
+    },
+    Parameter {
+        name: "contact_closing",
+        symbol: "u_s",
+        unit: "m",
+        lower: 0.0,
+        upper: 1e12,
+        vanishes_at: None,
+        neutral: Some(0.0),
+        meaning: "slip over which its surfaces meet; 0: at once",
+    },
 ];
 
 /// Share of the largest force or displacement from which a rounding is refined.
@@ -92,6 +113,17 @@ fn one_sided(size: f64, side: f64, edge: f64, r: f64, x: f64) -> Response {
     }
 }
 
+/// Force of surfaces that meet at rest, on the side of the stiffness's sign.
+fn bearing(stiffness: f64, closing: f64, displacement: f64) -> Response {
+    one_sided(
+        stiffness.abs(),
+        stiffness.signum(),
+        0.0,
+        closing,
+        displacement,
+    )
+}
+
 impl Effect for JointOpening {
     fn name(&self) -> &'static str {
         "joint_opening"
@@ -105,18 +137,18 @@ impl Effect for JointOpening {
     fn keeps_side(&self, parameter: usize) -> bool {
         PARAMETERS[parameter].name == "opening_force"
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
-        let also = (values[3] != 0.0).then_some(Place::BesideJoint);
-        [Some(self.place()), also]
+    fn places(&self, values: &[f64]) -> Places {
+        [
+            Some(self.place()),
+            (values[3] != 0.0).then_some(Place::BesideJoint),
+            (values[5] != 0.0).then_some(Place::BesideSlip),
+        ]
+    }
+    fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
+        bearing(values[5], values[6], slip)
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
-        one_sided(
-            values[3].abs(),
-            values[3].signum(),
-            0.0,
-            values[4],
-            displacement,
-        )
+        bearing(values[3], values[4], displacement)
     }
     fn spring(&self, values: &[f64], force: f64) -> Response {
         let [compliance, opens, rounding] = [values[0], values[1], values[2]];
@@ -137,7 +169,7 @@ impl Cause for JointOpening {
                 "pinning",
             ],
             separated_by: "The kink sits at a force, not at a displacement, and adds no area; below the opening force the baseline is exact; a normal load that follows the force changes the area of the loops too.",
-            formula: "F = F_j + k_c max(U, 0), or U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2, likewise max(U, 0) over u_c",
+            formula: "F = F_j + k_c max(U, 0), or F_j = F_network + k_s max(u, 0), or U = u + F/K_1 + c_o max(F - F_o, 0); mirrored for F_o < 0; with a rounding g(F - F_o) - g(-F_o), g(x) = (x + sqrt(x^2 + r^2))/2, likewise max(U, 0) over u_c and max(u, 0) over u_s",
             source: "Preloaded bolted joint beyond separation, VDI 2230; bilinear spring.",
         }
     }
@@ -149,8 +181,11 @@ impl Cause for JointOpening {
         let stiffness = 0.01 * scale.force / scale.displacement;
         [0.02, -0.02, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75]
             .iter()
-            .map(|share| vec![compliance, share * scale.force, 0.0, 0.0, 0.0])
-            .chain([vec![0.0, 0.0, 0.0, stiffness, 0.0]])
+            .map(|share| vec![compliance, share * scale.force, 0.0, 0.0, 0.0, 0.0, 0.0])
+            .chain([
+                vec![0.0, 0.0, 0.0, stiffness, 0.0, 0.0, 0.0],
+                vec![0.0, 0.0, 0.0, 0.0, 0.0, stiffness, 0.0],
+            ])
             .collect()
     }
     fn refined(&self, values: &[f64], scale: &Scale) -> Vec<f64> {
@@ -161,6 +196,9 @@ impl Cause for JointOpening {
         if values[3] != 0.0 {
             finer[4] = LITTLE_BY_LITTLE * scale.displacement;
         }
+        if values[5] != 0.0 {
+            finer[6] = LITTLE_BY_LITTLE * scale.displacement;
+        }
         finer
     }
 }
@@ -169,9 +207,21 @@ impl Cause for JointOpening {
 mod tests {
     use super::*;
 
+    type Law = fn(f64, f64, f64) -> Response;
+
+    fn across(stiffness: f64, closing: f64, displacement: f64) -> Response {
+        let values = [0.0, 0.0, 0.0, stiffness, closing, 1.0, 0.0];
+        JointOpening.beside_joint(&values, displacement, 1.0)
+    }
+
+    fn contact(stiffness: f64, closing: f64, slip: f64) -> Response {
+        let values = [0.0, 0.0, 0.0, 1.0, 0.0, stiffness, closing];
+        JointOpening.beside_slip(&values, slip, &[])
+    }
+
     #[test]
     fn it_is_softer_beyond_the_opening_force_and_there_only() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0, 0.0, 0.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 0.0, 0.0, 0.0, 0.0, 0.0], force);
         assert_eq!((at(3.0, 5.0).value, at(3.0, 5.0).slope), (4.0, 2.0));
         assert_eq!(at(3.0, -5.0), Response::default());
         assert_eq!((at(-3.0, -5.0).value, at(-3.0, -5.0).slope), (-4.0, 2.0));
@@ -179,22 +229,25 @@ mod tests {
         assert_eq!(at(0.0, 1.0).value, 2.0);
         assert_eq!(at(0.0, -1.0).value, 0.0);
         // Open at rest: stiffer from where the surfaces meet.
-        let closes = JointOpening.spring(&[-2.0, 3.0, 0.0, 0.0, 0.0], 5.0);
+        let closes = JointOpening.spring(&[-2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0], 5.0);
         assert_eq!((closes.value, closes.slope), (-4.0, -2.0));
     }
 
     #[test]
     fn it_is_stiffer_across_on_the_side_of_the_sign() {
-        let at = |stiffness, u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness, 0.0], u, 1.0);
-        assert_eq!((at(3.0, 2.0).value, at(3.0, 2.0).slope), (6.0, 3.0));
-        assert_eq!((at(-3.0, -2.0).value, at(-3.0, -2.0).slope), (-6.0, 3.0));
-        assert_eq!(at(3.0, -2.0), Response::default());
-        assert_eq!(at(-3.0, 2.0), Response::default());
+        let laws: [Law; 2] = [across, contact];
+        for law in laws {
+            let at = |stiffness, u| law(stiffness, 0.0, u);
+            assert_eq!((at(3.0, 2.0).value, at(3.0, 2.0).slope), (6.0, 3.0));
+            assert_eq!((at(-3.0, -2.0).value, at(-3.0, -2.0).slope), (-6.0, 3.0));
+            assert_eq!(at(3.0, -2.0), Response::default());
+            assert_eq!(at(-3.0, 2.0), Response::default());
+        }
     }
 
     #[test]
     fn a_rounding_parts_the_surfaces_little_by_little() {
-        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0, 0.0, 0.0], force);
+        let at = |opens, force| JointOpening.spring(&[2.0, opens, 4.0, 0.0, 0.0, 0.0, 0.0], force);
         for opens in [3.0, -3.0] {
             assert_eq!(at(opens, 0.0).value, 0.0);
             let far = at(opens, 1e6 * opens).value - 2.0 * (1e6 - 1.0) * opens;
@@ -211,8 +264,9 @@ mod tests {
 
     #[test]
     fn surfaces_meet_little_by_little() {
-        for stiffness in [3.0, -3.0] {
-            let at = |u| JointOpening.beside_joint(&[0.0, 0.0, 0.0, stiffness, 4.0], u, 1.0);
+        let laws: [Law; 2] = [across, contact];
+        for (law, stiffness) in laws.into_iter().flat_map(|law| [(law, 3.0), (law, -3.0)]) {
+            let at = |u| law(stiffness, 4.0, u);
             assert_eq!(at(0.0).value, 0.0);
             // g(3) - g(0) = (3 + 5)/2 - 2.
             assert_eq!(at(stiffness).value, stiffness * 2.0);

@@ -1,7 +1,7 @@
 //! `mains_hum`: a channel picks up the mains.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::elementary::sincos;
 use crate::joint::parameters::Parameter;
 
@@ -95,7 +95,7 @@ impl Effect for MainsHum {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(
             values[0] != 0.0 || values[1] != 0.0,
             values[5] != 0.0 || values[6] != 0.0,

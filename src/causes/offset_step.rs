@@ -1,7 +1,7 @@
 //! `offset_step`: a reading jumps once.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::elementary::{exp, hypot, log, tanh};
 use crate::joint::parameters::Parameter;
 
@@ -69,7 +69,7 @@ impl Effect for OffsetStep {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(values[0] != 0.0, values[3] != 0.0)
     }
     fn channel(&self, values: &[f64], place: Place, truth: &Trajectory) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 use super::wear::{ENERGY, PER_PATH, TAIL, at_once, follow_path, remaining, shapes, soon, worn};
 use super::{Cause, Page, Scale};
-use crate::joint::effect::{Effect, Place, Response, Situation, SlipLimit};
+use crate::joint::effect::{Effect, Place, Places, Response, Situation, SlipLimit};
 use crate::joint::parameters::Parameter;
 
 /// Break-free forces settle with the energy dissipated, `n = 1 − a exp(−E/E_0)`, or with the path of the
@@ -65,9 +65,9 @@ impl Effect for RunningIn {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         let also = (values[4] != 0.0).then_some(Place::InSeries);
-        [Some(self.place()), also]
+        [Some(self.place()), also, None]
     }
     /// Energy and path before the last step that took time, which its compliance went by; both behind it; slip; the
     /// load, and what gave way to it.

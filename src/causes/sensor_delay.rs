@@ -1,7 +1,7 @@
 //! `sensor_delay`: one channel lags the other.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::parameters::Parameter;
 use crate::joint::passed::Passed;
 
@@ -60,7 +60,7 @@ impl Effect for SensorDelay {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(values[0] != 0.0 || values[1] != 0.0, values[2] != 0.0)
     }
     fn lateness(&self, values: &[f64]) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! `sensor_nonlinearity`: a sensor's curve is bent.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::elementary;
 use crate::joint::parameters::Parameter;
 
@@ -102,7 +102,7 @@ impl Effect for SensorNonlinearity {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(
             values[0] != 0.0 || values[1] != 0.0,
             values[4] != 0.0 || values[5] != 0.0,

@@ -1,7 +1,7 @@
 //! `sensor_saturation`: a channel runs out of range.
 
 use super::{Cause, Page, Scale, chain};
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::elementary::power;
 use crate::joint::parameters::Parameter;
 
@@ -149,7 +149,7 @@ impl Effect for SensorSaturation {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         chain::places(values[0] != 0.0, values[4] != 0.0)
     }
     fn follows_reading(&self) -> bool {

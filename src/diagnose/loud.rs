@@ -79,7 +79,7 @@ mod tests {
         let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
         let current = baseline(&bench.train);
         let effect = find("cubic_stiffness").unwrap().effect();
-        let values = vec![2e-15, 0.0, 0.0, 0.0];
+        let values = vec![2e-15, 0.0, 0.0, 0.0, 0.0, 0.0];
         let fit = Fit {
             effects: vec![Acting { effect, values }],
             ..current.clone()

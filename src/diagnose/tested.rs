@@ -257,7 +257,7 @@ mod tests {
         let larger = Fit {
             effects: vec![Acting {
                 effect,
-                values: vec![2e-15, 0.0, 0.0, 0.0],
+                values: vec![2e-15, 0.0, 0.0, 0.0, 0.0, 0.0],
             }],
             ..smaller.clone()
         };

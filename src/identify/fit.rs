@@ -181,9 +181,6 @@ fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> 
         (true, Some(compliance)) => compliance,
         (true, None) => {
             let fit = refine(problem, coefficients, effects, steps);
-            if fit.misfit > steps.bound {
-                return fit;
-            }
             let mut split = fit.clone();
             let compliance = series::start(problem.operators.form, &mut split.coefficients);
             split.series = Some(compliance);
@@ -274,7 +271,9 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
     let drives = problem.operators.form == Form::Play;
     let shares =
         |a: &Acting| a.acts_at(Place::BesideJoint) || a.effect.inertia(&a.values).is_some();
-    let follows = |a: &Acting| a.acts_at(Place::SlipLimit) || (drives && shares(a));
+    let yields = |a: &Acting| a.acts_at(Place::Spring) || a.acts_at(Place::InSeries);
+    let answers = |a: &Acting| if drives { shares(a) } else { yields(a) };
+    let follows = |a: &Acting| a.acts_at(Place::SlipLimit) || answers(a);
     let implicit = now.effects.iter().any(follows);
     for round in 0..steps.longest {
         let slopes = slopes(problem, &now.coefficients, &now.effects, &now.predictions);

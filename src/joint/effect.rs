@@ -38,6 +38,9 @@ impl Place {
     }
 }
 
+/// Where an effect acts, of a law with up to three forms.
+pub type Places = [Option<Place>; 3];
+
 /// State of the joint at one sample, as an effect may see it. SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Situation {
@@ -140,7 +143,7 @@ impl Trajectory {
     }
 }
 
-/// One effect: a law at one place, or of two forms at two. Values of its parameters come as a slice in the order of
+/// One effect: a law at one place, or of several forms at several. Values of its parameters come as a slice in the order of
 /// [`Effect::parameters`]; its history lives in a slice of [`Effect::memory`] numbers that the
 /// simulation owns, so that saving and restoring a simulation needs nothing from the effect.
 pub trait Effect: Send + Sync {
@@ -148,9 +151,9 @@ pub trait Effect: Send + Sync {
     fn name(&self) -> &'static str;
     /// Where it acts.
     fn place(&self) -> Place;
-    /// Where it acts with these values, of a law that has another form at a second place.
-    fn places(&self, _values: &[f64]) -> [Option<Place>; 2] {
-        [Some(self.place()), None]
+    /// Where it acts with these values, of a law that has other forms at other places.
+    fn places(&self, _values: &[f64]) -> Places {
+        [Some(self.place()), None, None]
     }
     /// Glossary of its parameters.
     fn parameters(&self) -> &'static [Parameter];

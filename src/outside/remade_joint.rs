@@ -3,7 +3,7 @@
 
 use super::Outsider;
 use crate::causes::Scale;
-use crate::joint::effect::{Effect, Place, Trajectory};
+use crate::joint::effect::{Effect, Place, Places, Trajectory};
 use crate::joint::parameters::Parameter;
 
 /// The joint of test k answers `U (1 + g_k)` to `F (1 + p_k)`, U and F those of the first test's joint: springs `(1 +
@@ -64,11 +64,12 @@ impl Effect for RemadeJoint {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn places(&self, values: &[f64]) -> [Option<Place>; 2] {
+    fn places(&self, values: &[f64]) -> Places {
         let moves = |scales: &[f64]| scales.iter().any(|scale| *scale != 0.0);
         [
             moves(&values[..TESTS]).then_some(Place::DisplacementChannel),
             moves(&values[TESTS..]).then_some(Place::ForceChannel),
+            None,
         ]
     }
     fn follows_reading(&self) -> bool {

@@ -71,6 +71,8 @@ OTHERS = {
         "levelling": 1e-7,
         "across": 1e18,
         "across_levelling": 1e9,
+        "across_contact": 1e18,
+        "across_contact_levelling": 1e9,
     },
     "joint_opening": {
         "compliance": 2e-9,
@@ -78,6 +80,8 @@ OTHERS = {
         "rounding": 5.0,
         "closed_stiffness": 1e5,
         "closing": 1e-7,
+        "contact_stiffness": 1e5,
+        "contact_closing": 1e-7,
     },
     "asymmetric_friction": {"asymmetry": 0.1},
     "normal_load_variation": {

@@ -68,79 +68,87 @@ def hyperbolic(b, x, hardens):
     return np.arcsinh(b * x) / b - x, 1.0 / np.sqrt(1.0 + (b * x) ** 2) - 1.0
 
 
-class CubicStiffness(Scaled):
-    """A spring hardens or softens: the one in series, or one across the joint."""
+class Spring(Scaled):
+    """An elastic law in one of three places: in series, across the joint or across its contact."""
 
-    name = "cubic_stiffness"
     acts = frozenset({"series", "across"})
 
-    def draw(self, scene, rng):
-        self.across_joint = bool(rng.random() < 0.4)
-        self.hardens = bool(rng.random() < (0.8 if self.across_joint else 0.6))
+    def place(self, scene, rng, shares):
+        """Draw the place, and the force and displacement that the law is told in."""
+        self.where = str(rng.choice(["series", "across", "contact"], p=shares))
+        self.acts = frozenset({self.where})
         self.top = scene.largest("force")
-        self.way = scene.largest("displacement")
+        self.way = scene.largest("slip" if self.where == "contact" else "displacement")
+
+    def across(self, displacement):
+        return self.beside(displacement)
+
+    def contact(self, slip):
+        return self.beside(slip)
+
+
+class CubicStiffness(Spring):
+    """A spring hardens or softens."""
+
+    name = "cubic_stiffness"
+
+    def draw(self, scene, rng):
+        self.place(scene, rng, [0.5, 0.3, 0.2])
+        self.hardens = bool(rng.random() < (0.6 if self.where == "series" else 0.8))
         self.soft = 1.0 / scene.joint.series
 
     def series(self, force):
-        if self.across_joint:
-            return 0.0, 0.0
         # Displacement over force: what hardens gives less.
         law, slope = hyperbolic(2.5 * self.strength, force / self.top, not self.hardens)
         return self.soft * self.top * law, self.soft * slope
 
-    def across(self, displacement):
-        if not self.across_joint:
-            return 0.0, 0.0
+    def beside(self, displacement):
         law, slope = hyperbolic(2.5 * self.strength, displacement / self.way, self.hardens)
         return 0.5 * self.top * law, 0.5 * self.top / self.way * slope
 
     def describe(self):
         return {
-            "across_joint": self.across_joint,
+            "where": self.where,
             "hardens": self.hardens,
             "curvature": 2.5 * self.strength,
         }
 
 
-class JointOpening(Scaled):
+class JointOpening(Spring):
     """The seat gives more in tension than in compression, or bears on one side of rest."""
 
     name = "joint_opening"
-    acts = frozenset({"series", "across"})
 
     def draw(self, scene, rng):
-        self.across_joint = bool(rng.random() < 0.3)
+        self.place(scene, rng, [0.6, 0.2, 0.2])
         self.side = float(rng.choice([-1.0, 1.0]))
         share = rng.uniform(0.01, 0.08)
-        self.round = scene.largest("force") * share
-        self.near = scene.largest("displacement") * share
-        self.most = scene.largest("displacement") / scene.largest("force")
+        self.round = self.top * share
+        self.near = self.way * share
+        self.most = self.way / self.top
 
     def series(self, force):
-        if self.across_joint:
-            return 0.0, 0.0
         give = self.strength * self.most
         y, slope = softplus(self.side * force / self.round)
         return self.side * give * self.round * (y - np.log(2.0)), give * slope
 
-    def across(self, displacement):
-        if not self.across_joint:
-            return 0.0, 0.0
+    def beside(self, displacement):
         bears = self.strength / self.most
         y, slope = softplus(self.side * displacement / self.near)
         return self.side * bears * self.near * (y - np.log(2.0)), bears * slope
 
     def describe(self):
-        if self.across_joint:
+        if self.where == "series":
             return {
-                "bears": "positive" if self.side > 0 else "negative",
-                "stiffness_added_N_per_m": self.strength / self.most,
-                "rounding_m": self.near,
+                "opens": "positive" if self.side > 0 else "negative",
+                "compliance_added_m_per_N": self.strength * self.most,
+                "rounding_N": self.round,
             }
         return {
-            "opens": "positive" if self.side > 0 else "negative",
-            "compliance_added_m_per_N": self.strength * self.most,
-            "rounding_N": self.round,
+            "bears": "positive" if self.side > 0 else "negative",
+            "where": self.where,
+            "stiffness_added_N_per_m": self.strength / self.most,
+            "rounding_m": self.near,
         }
 
 

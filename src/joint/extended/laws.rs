@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use crate::joint::effect::{Acting, Place, Response, Situation, SlipLimit};
+use crate::joint::effect::{Acting, Place, Places, Response, Situation, SlipLimit};
 
 /// One effect and where its history lies in the simulation's memory.
 #[derive(Debug, Clone)]
 pub(super) struct Law {
     pub acting: Acting,
     /// Where it acts, and where else.
-    pub places: [Option<Place>; 2],
+    pub places: Places,
     pub span: Range<usize>,
 }
 
