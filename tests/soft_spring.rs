@@ -1,0 +1,73 @@
+//! What acts across the contact alone, behind a soft spring in series: it is named, and its size told, in either drive.
+
+use iwan::diagnose::diagnose;
+use iwan::record::Record;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
+
+/// Seed of the noise; printed with every failure.
+const SEED: u64 = 20261128;
+/// Stiffness of the series spring \[N/m\]: the contact's is 1.2e8 before it slips.
+const SERIES: f64 = 7e7;
+
+/// Sixty sliders with `beside` across them under steps of a sine of the slip, read behind the spring, in noise of a
+/// share of the channel that answers.
+fn record(beside: &dyn Fn(f64) -> f64, by_force: bool) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    let mut noise = move || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let mut reached = [0.0_f64; 60];
+    let mut before = 0.0;
+    let mut record = Record {
+        name: "soft".to_owned(),
+        time: Some(Vec::new()),
+        ..Record::default()
+    };
+    for i in 0..4000 {
+        let turn = TAU * f64::from(i) / 200.0;
+        let level = [0.3, 0.5, 0.8, 1.0, 0.6][i as usize / 800];
+        let slip = 2e-5 * level * turn.sin();
+        for (j, d) in reached.iter_mut().enumerate() {
+            let most = 4e-7 * f64::from(j as u8 + 1);
+            *d = (*d + slip - before).clamp(-most, most);
+        }
+        before = slip;
+        let force = 2e6 * reached.iter().sum::<f64>() + beside(slip);
+        let displacement = slip + force / SERIES;
+        let (of_force, of_displacement) = if by_force { (0.0, 5e-8) } else { (4.0, 0.0) };
+        record
+            .time
+            .get_or_insert_default()
+            .push(5e-3 * f64::from(i));
+        record.force.push(force + of_force * noise());
+        record
+            .displacement
+            .push(displacement + of_displacement * noise());
+    }
+    record
+}
+
+/// A contact that bears on one side had been called `normal_load_variation`, or itself with a sensor that bends, and one
+/// that hardens `pinning`.
+#[test]
+fn what_bears_behind_a_soft_spring_is_told_from_the_spring() {
+    let one_sided = |slip: f64| 3e7 * slip.max(0.0);
+    let hardening = |slip: f64| 1e17 * slip.powi(3);
+    let laws: [(&dyn Fn(f64) -> f64, &str, &str, f64); 2] = [
+        (&one_sided, "joint_opening", "contact_stiffness", 3e7),
+        (&hardening, "cubic_stiffness", "across_contact", 1e17),
+    ];
+    for (law, name, parameter, size) in laws {
+        for by_force in [false, true] {
+            let place = format!("seed {SEED}, {name}, by force {by_force}");
+            let findings = diagnose(&[record(law, by_force)], |_| ()).unwrap();
+            let names: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+            assert_eq!(names, [name], "{place}");
+            let told = &findings.causes[0].parameters;
+            let told = told.iter().find(|p| p.name == parameter).unwrap();
+            let error = told.value / size - 1.0;
+            println!("{place}: {error:.4} {:?}", told.interval);
+            assert!(error.abs() < 0.1, "{place}: {}", told.value);
+        }
+    }
+}
