@@ -11,9 +11,12 @@ const SEED: u64 = 20261128;
 /// Stiffness of the series spring \[N/m\]: the contact's is 1.2e8 before it slips.
 const SERIES: f64 = 7e7;
 
+/// Force of what bears beside the sliders \[N\] at a slip \[m\].
+type Beside<'a> = &'a dyn Fn(f64) -> f64;
+
 /// Sixty sliders with `beside` across them under steps of a sine of the slip, read behind the spring, in noise of a
 /// share of the channel that answers.
-fn record(beside: &dyn Fn(f64) -> f64, by_force: bool) -> Record {
+fn record(beside: Beside, by_force: bool) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = move || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let mut reached = [0.0_f64; 60];
@@ -53,7 +56,7 @@ fn record(beside: &dyn Fn(f64) -> f64, by_force: bool) -> Record {
 fn what_bears_behind_a_soft_spring_is_told_from_the_spring() {
     let one_sided = |slip: f64| 3e7 * slip.max(0.0);
     let hardening = |slip: f64| 1e17 * slip.powi(3);
-    let laws: [(&dyn Fn(f64) -> f64, &str, &str, f64); 2] = [
+    let laws: [(Beside, &str, &str, f64); 2] = [
         (&one_sided, "joint_opening", "contact_stiffness", 3e7),
         (&hardening, "cubic_stiffness", "across_contact", 1e17),
     ];
