@@ -266,8 +266,8 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
     let columns = problem.operators.columns();
     let mut now = Reached::at(problem, coefficients, effects).begun(problem, steps.before);
     let mut damping = 0.0;
-    // Limits that follow what the joint does, and what shares the force with it, make the answer less than linear in
-    // the dictionary.
+    // Limits that follow what the joint does, and what shares the force with it or, where displacement drives, takes of
+    // the way, make the answer less than linear in the dictionary.
     let drives = problem.operators.form == Form::Play;
     let shares =
         |a: &Acting| a.acts_at(Place::BesideJoint) || a.effect.inertia(&a.values).is_some();
