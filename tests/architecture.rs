@@ -47,7 +47,7 @@ const OF_THE_PLATFORM: [&str; 28] = [
 ];
 
 /// Files of src/causes that hold what several causes share, and no cause.
-const SHARED_BY_CAUSES: [&str; 4] = ["mod", "chain", "free_play", "wear"];
+const SHARED_BY_CAUSES: [&str; 5] = ["mod", "chain", "free_play", "spring", "wear"];
 
 /// Room → rooms it may name, from the table in ARCHITECTURE.md.
 fn rooms() -> BTreeMap<String, BTreeSet<String>> {

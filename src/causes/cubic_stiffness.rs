@@ -1,6 +1,6 @@
 //! `cubic_stiffness`: a spring before the interface, across the joint or across the contact softens or hardens.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, spring};
 use crate::joint::effect::{Effect, Place, Places, Response};
 use crate::joint::elementary::{cube, square};
 use crate::joint::parameters::Parameter;
@@ -112,11 +112,7 @@ impl Effect for CubicStiffness {
         &PARAMETERS
     }
     fn places(&self, values: &[f64]) -> Places {
-        [
-            Some(self.place()),
-            (values[2] != 0.0).then_some(Place::BesideJoint),
-            (values[4] != 0.0).then_some(Place::BesideSlip),
-        ]
+        spring::places(values[2], values[4])
     }
     fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
         levelled_cube(values[4], values[5], slip)

@@ -1,6 +1,6 @@
 //! `joint_opening`: the joint is softer on one side of a force.
 
-use super::{Cause, Page, Scale};
+use super::{Cause, Page, Scale, spring};
 use crate::joint::effect::{Effect, Place, Places, Response};
 use crate::joint::elementary::square;
 use crate::joint::parameters::Parameter;
@@ -138,11 +138,7 @@ impl Effect for JointOpening {
         PARAMETERS[parameter].name == "opening_force"
     }
     fn places(&self, values: &[f64]) -> Places {
-        [
-            Some(self.place()),
-            (values[3] != 0.0).then_some(Place::BesideJoint),
-            (values[5] != 0.0).then_some(Place::BesideSlip),
-        ]
+        spring::places(values[3], values[5])
     }
     fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
         bearing(values[5], values[6], slip)

@@ -22,6 +22,7 @@ mod sensor_delay;
 mod sensor_nonlinearity;
 mod sensor_saturation;
 mod slack_growth;
+mod spring;
 mod static_friction_drop;
 mod velocity_weakening;
 mod viscous_damping;
