@@ -15,8 +15,8 @@ use crate::record::noise::independence;
 /// forty. Every one of several has to lower it beyond the scatter of the held-out cycles (95 % interval of the
 /// bootstrap): the more causes, the more ways to mend by one what another's law is wrong about. One that takes most of
 /// the misfit away, and a substantial part of the baseline's, stays: what happens once, or at one rate,
-/// few held-out cycles show. So does one of a set that leaves noise alone, whose gain is beyond that noise: of a
-/// few cycles a bootstrap tells little.
+/// few held-out cycles show. So does one of a set that leaves noise alone, by which held-out samples
+/// are likelier than chance makes them once in forty: of a few cycles, or of slow noise, a bootstrap tells little.
 pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
     let beyond = baseline.misfit - bench.train.rows() as f64;
     let substantial = SUBSTANTIAL * beyond;
@@ -33,7 +33,7 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
                 let (value, interval) = ratio(bench, &less.predict(&bench.train), &after);
                 let prospect = Prospect::of(bench, &less, &fit);
                 let telling = prospect.dominates() && prospect.fitted > substantial;
-                let upper = match telling || noise_alone && prospect.is_certain() {
+                let upper = match telling || noise_alone && prospect.is_likelier() {
                     true => 0.0,
                     false => interval.map_or(value, |(_, upper)| upper),
                 };
@@ -67,9 +67,6 @@ pub fn tested(bench: &Bench, baseline: &Fit, mut fit: Fit) -> Fit {
 
 /// Likelihood ratio of held-out samples that chance reaches as rarely as a bootstrap's interval of 95 % misses at one end.
 const LIKELIER: f64 = 40.0;
-
-/// Standard deviations that count as certain.
-const CERTAIN: f64 = 3.0;
 
 /// Difference that two models make on held-out samples, in noise variances, below which those
 /// samples cannot tell them apart: right and wrong differ by twice it, with four standard deviations
@@ -203,12 +200,6 @@ impl Prospect {
     /// True where held-out samples are that much likelier by the larger set that one in forty would be by chance.
     pub fn is_likelier(&self) -> bool {
         self.held_out_evidence() > 2.0 * LIKELIER.ln()
-    }
-
-    /// True where held-out samples show the set to be better, beyond what their noise may do: the squared errors of
-    /// two models that differ by d vary by 2 |d|.
-    pub fn is_certain(&self) -> bool {
-        self.held_out > CERTAIN * 2.0 * self.difference.sqrt()
     }
 
     /// True where the set takes most of the misfit beyond noise away, held-out samples included, and the errors
