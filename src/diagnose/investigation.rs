@@ -7,7 +7,8 @@ use super::prepare::Bench;
 use super::search::{Found, quick, search};
 use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of};
 use crate::causes::Cause;
-use crate::identify::beginning::{Beginning, past, sharpened};
+use crate::identify::beginning::Beginning;
+use crate::identify::past::{past, sharpened};
 use crate::identify::{Fit, Problem, baseline, refit, without};
 use crate::joint::effect::Acting;
 

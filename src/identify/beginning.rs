@@ -8,12 +8,12 @@
 use super::fit::{Fit, baseline, least_misfit};
 use super::gone_on::{from_reading, gone_on};
 use super::operators::Form;
+use super::past::{finely_moved, past, reconsidered};
 use super::prepared::Prepared;
 use super::problem::Problem;
 use crate::record::cycles::{span, turning_points};
 use crate::record::noise::independence;
 use rayon::prelude::*;
-use std::ops::RangeInclusive;
 
 /// How a record begins, in units of the driving channel.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,7 +36,7 @@ impl Beginning {
     }
 
     /// A joint whose load had turned at these readings, oldest first.
-    fn behind(turned: Vec<f64>) -> Beginning {
+    pub(super) fn behind(turned: Vec<f64>) -> Beginning {
         Beginning {
             turned,
             ..Beginning::default()
@@ -81,12 +81,6 @@ pub(super) const FALL: f64 = 30.0;
 
 /// Share of the range below which a turn of the load is none.
 pub const BAND: f64 = 0.02;
-
-/// Shares of the way back to the last turn at which the load may have turned before the record began.
-const BACK: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// Levels of a test that shrinks, over the level before.
-const SHRINKS: [f64; 4] = [0.4, 0.55, 0.7, 0.85];
 
 /// Other beginnings of the records that are worth a search, none where no other comes near the truth of any.
 ///
@@ -170,7 +164,11 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     let Some((_, best)) = best.filter(|(all, _)| *all < virgin_all) else {
         return virgin;
     };
-    let (all, best) = moved(best, altogether, (3..=FINE, SWEEPS));
+    let (all, best) = finely_moved(best, altogether);
+    let (all, best) = match reconsidered((all, &best), (&altogether, samples), input) {
+        Some(other) => finely_moved(other, altogether),
+        None => (all, best),
+    };
     let nearer = offset || left_early(&best) < HALF * virgin_early;
     match nearer && wins(all, virgin_all, samples) {
         true => best,
@@ -183,109 +181,6 @@ pub(super) fn wins(all: f64, before: f64, samples: f64) -> bool {
     before - all > FALL * all / samples
 }
 
-/// The turns before a record that leave least, by what `left` says of a beginning, and how much that is; `None` of a
-/// record whose load turns less than twice. A further turn has to bring its part of what is left per sample, of
-/// `samples` that vary by themselves.
-pub fn past(
-    (input, samples): (&[f64], f64),
-    left: impl Fn(&Beginning) -> f64 + Sync,
-) -> Option<(f64, Beginning)> {
-    if early(input) == 0 {
-        return None;
-    }
-    let (low, high) = low_high(input.iter().copied());
-    let older = |turned: &[f64]| [low, high].map(|turn| [&[turn], turned].concat()).to_vec();
-    // A smaller block after the one whose turns are known.
-    let newer = |turned: &[f64]| match *turned {
-        [.., before, _] => BACK
-            .map(|share| input[0] + share * (before - input[0]))
-            .map(|turn| [turned, &[turn]].concat())
-            .to_vec(),
-        _ => Vec::new(),
-    };
-    let deepened = |mut all: f64, mut best: Beginning, most: usize, longer: Longer| {
-        while best.turned.len() < most {
-            let tried = longer(&best.turned).into_par_iter();
-            let tried = tried.map(|turned| sharpened(Beginning::behind(turned), &left));
-            let nearest = tried.min_by(|(a, _), (b, _)| a.total_cmp(b));
-            match nearest.filter(|longer| wins(longer.0, all, samples)) {
-                Some(longer) => (all, best) = longer,
-                None => break,
-            }
-        }
-        (all, best)
-    };
-    let nearest = |tried: &[Beginning]| {
-        let all = tried.par_iter().map(|b| (left(b), b));
-        let nearest = all.min_by(|(a, _), (b, _)| a.total_cmp(b));
-        nearest.map(|(_, best)| best.clone())
-    };
-    // Of each range by itself: what is nearest with two turns may stay behind with older ones.
-    let of_range = |tried: &Vec<Beginning>| {
-        let (all, best) = sharpened(nearest(tried)?, &left);
-        Some(deepened(all, best, DEEP, &older))
-    };
-    let two = histories(input);
-    let shrunk: Vec<_> = shrinking((low, high)).map(Beginning::behind).collect();
-    let shrunk = || nearest(&shrunk).map(|best| moved(best, &left, (1..=ROUNDS, SWEEPS)));
-    let (shrunk, ranges) = rayon::join(shrunk, || {
-        two.par_iter().filter_map(of_range).collect::<Vec<_>>()
-    });
-    let ranges = ranges.into_iter().chain(shrunk);
-    let (all, best) = ranges.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    Some(deepened(all, best, DEEPEST, &newer))
-}
-
-/// Turns of which each has one more than those given.
-type Longer<'a> = &'a (dyn Fn(&[f64]) -> Vec<Vec<f64>> + Sync);
-
-/// Most turns that a record is asked for, and most beyond which no older one is.
-const DEEPEST: usize = 6;
-const DEEP: usize = 4;
-
-/// Rounds of halved moves of the turns.
-const ROUNDS: i32 = 5;
-
-/// Those after which what is nearest is known to a thousandth of its range.
-const FINE: i32 = 8;
-
-/// Most moves of every turn by the same step, where it is to be that fine.
-const SWEEPS: usize = 4;
-
-/// The same with turns where they leave least, by what `left` says of a beginning; and how much that is.
-pub fn sharpened(begun: Beginning, left: impl Fn(&Beginning) -> f64) -> (f64, Beginning) {
-    moved(begun, left, (1..=ROUNDS, 1))
-}
-
-/// The turns moved by halved steps, each as often as that leaves less.
-fn moved(
-    begun: Beginning,
-    left: impl Fn(&Beginning) -> f64,
-    (halved, sweeps): (RangeInclusive<i32>, usize),
-) -> (f64, Beginning) {
-    let range = span(&begun.turned);
-    let places = begun.turned.len();
-    let mut best = (left(&begun), begun);
-    for times in halved {
-        let step = 0.25 * range * 0.5_f64.powi(times);
-        for _ in 0..sweeps {
-            let before = best.0;
-            for (place, by) in (0..places).flat_map(|place| [(place, step), (place, -step)]) {
-                let mut other = best.1.clone();
-                other.turned[place] += by;
-                let judged = left(&other);
-                if judged < best.0 {
-                    best = (judged, other);
-                }
-            }
-            if best.0 == before {
-                break;
-            }
-        }
-    }
-    best
-}
-
 /// Samples until the load has turned twice: what came before the record is forgotten by then, or nearly so.
 pub fn early(input: &[f64]) -> usize {
     turns(input).get(1).map_or(0, |second| second + 1)
@@ -293,45 +188,14 @@ pub fn early(input: &[f64]) -> usize {
 
 /// Where the load turns within the record: not at the first sample, nor where a load at rest only trembles before it
 /// sets out.
-fn turns(input: &[f64]) -> Vec<usize> {
+pub(super) fn turns(input: &[f64]) -> Vec<usize> {
     let dead = BAND * span(input);
     let set_out = |turn: &usize| (input[*turn] - input[0]).abs() > dead;
     let all = turning_points(input, BAND).into_iter();
     all.skip_while(|turn| !set_out(turn)).collect()
 }
 
-/// Readings between which the load may have gone before, and where it turned last: between the first turns of
-/// the record, its whole range, or half way, as in a test that grows.
-fn histories(input: &[f64]) -> [Vec<Beginning>; 3] {
-    let start = input[0];
-    let first = low_high(turns(input)[..2].iter().map(|&turn| input[turn]));
-    let whole = low_high(input.iter().copied());
-    let between = (0.5 * (first.0 + whole.0), 0.5 * (first.1 + whole.1));
-    [first, between, whole].map(|(low, high)| {
-        let both = [(high, low), (low, high)].into_iter();
-        let turned = both.flat_map(|(before, last)| {
-            let back = BACK.map(|share| vec![before, start + share * (last - start)]);
-            std::iter::once(vec![before, last]).chain(back)
-        });
-        turned.map(Beginning::behind).collect()
-    })
-}
-
-/// Turns of tests whose levels shrink: each leaves one up and one down, which later loads close one by one.
-fn shrinking((low, high): (f64, f64)) -> impl Iterator<Item = Vec<f64>> {
-    let ways = [(low, high), (high, low)].into_iter();
-    let levels = ways.flat_map(|both| SHRINKS.map(|by| (both, by)));
-    levels.flat_map(|((one, other), by)| {
-        let middle = 0.5 * (one + other);
-        let turn = move |k: usize| {
-            let level = f64::powi(by, k.div_ceil(2) as i32);
-            middle + level * (if k.is_multiple_of(2) { one } else { other } - middle)
-        };
-        (3..=DEEPEST).map(move |turns| (0..turns).map(turn).collect())
-    })
-}
-
-fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(super) fn low_high(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
@@ -371,11 +235,10 @@ mod tests {
     /// A joint under blocks up and down from sample `from` on, with noise of a thousandth, as a record of its own
     /// whose force reads `zero` too much.
     fn record(from: usize, zero: f64) -> Problem {
-        record_of([400.0, 1000.0, 700.0, 900.0, 500.0], from, zero)
+        record_of(force([400.0, 1000.0, 700.0, 900.0, 500.0]), from, zero)
     }
 
-    fn record_of(levels: [f64; 5], from: usize, zero: f64) -> Problem {
-        let force = force(levels);
+    fn record_of(force: Vec<f64>, from: usize, zero: f64) -> Problem {
         let test = |force: &[f64]| Record {
             displacement: vec![0.0; force.len()],
             time: Some((0..force.len()).map(|i| 0.01 * i as f64).collect()),
@@ -453,7 +316,29 @@ mod tests {
     #[test]
     fn a_record_from_a_test_that_shrinks_is_answered_from_all_its_turns() {
         for from in [1290, 1320] {
-            let problem = record_of([1000.0, 650.0, 350.0, 500.0, 1000.0], from, 0.0);
+            let problem = record_of(force([1000.0, 650.0, 350.0, 500.0, 1000.0]), from, 0.0);
+            leaves_noise_alone(&problem, &found(&problem).unwrap());
+        }
+    }
+
+    /// From a large block the load went over to a small one on its way, and left two turns between them.
+    #[test]
+    fn turns_that_came_to_nothing_in_the_search_make_room_for_an_older_one() {
+        let levels = [1000.0, 250.0, 400.0, 600.0, 1000.0];
+        let mut load = force(levels);
+        let over = 20;
+        for (i, f) in load
+            .iter_mut()
+            .enumerate()
+            .skip(600 - over)
+            .take(125 + over)
+        {
+            let part = (i + over - 600) as f64 / (125 + over) as f64;
+            let level = levels[0] + part * (levels[1] - levels[0]);
+            *f *= level / levels[if i < 600 { 0 } else { 1 }];
+        }
+        for from in [960, 1010, 1060, 1100] {
+            let problem = record_of(load.clone(), from, 0.0);
             leaves_noise_alone(&problem, &found(&problem).unwrap());
         }
     }

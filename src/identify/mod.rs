@@ -21,6 +21,7 @@ pub mod linearised;
 pub mod march;
 pub mod nonnegative;
 pub mod operators;
+pub mod past;
 pub mod prepared;
 pub mod problem;
 mod reached;
