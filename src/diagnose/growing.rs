@@ -110,7 +110,8 @@ impl Grow<'_> {
                 .filter(|(t, evidence, _)| {
                     let little = (*evidence, &t.fit);
                     let problem = &self.bench.train;
-                    heard(problem, current, little) >= least
+                    let known = self.bench.noise_is_repeated();
+                    heard((problem, known), current, little) >= least
                         && stays_on_a_finer_grid(problem, current, little)
                 })
                 .max_by(|(.., a), (.., b)| a.total().total_cmp(&b.total()))
