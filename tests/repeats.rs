@@ -71,6 +71,36 @@ fn reading_between_samples_makes_noise_no_slower_and_no_less() {
     }
 }
 
+/// At its larger levels the response jumps, and values between samples miss it: slow noise would seem fast.
+#[test]
+fn a_response_that_jumps_makes_slow_noise_no_faster() {
+    let mut random = ChaCha8Rng::seed_from_u64(18);
+    let phase = |i: u32| f64::from(i) * std::f64::consts::TAU / 97.5;
+    let level = |i: u32| f64::from(1 + i / 700);
+    let drive: Vec<f64> = (0..2100).map(|i| level(i) * phase(i).sin()).collect();
+    let (mut side, mut jumps) = (1.0, Vec::new());
+    for d in &drive {
+        if d * side < -1.5 {
+            side = -side;
+        }
+        jumps.push(5.0 * side);
+    }
+    let (mut variance, mut found) = (0.0, 0.0);
+    let draws = 40;
+    for _ in 0..draws {
+        let noise = coloured(&mut random, drive.len(), 0.9);
+        let response: Vec<f64> = (0..drive.len())
+            .map(|i| 50.0 * drive[i] + jumps[i] + noise[i])
+            .collect();
+        let told = from_repeats(&drive, &response).expect("cycles repeat");
+        variance += told.deviation.powi(2) / f64::from(draws);
+        found += told.autoregression / f64::from(draws);
+    }
+    // A third of the samples tells the noise: the mean of forty draws scatters by 8 %.
+    assert!((variance - 1.0).abs() < 0.2, "{variance}");
+    assert!((found - 0.9).abs() < 0.03, "{found}");
+}
+
 #[test]
 fn a_first_cycle_that_still_remembers_is_no_noise() {
     let mut random = ChaCha8Rng::seed_from_u64(12);

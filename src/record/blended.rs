@@ -50,6 +50,15 @@ impl Blended {
         let (squares, samples) = self.products(0);
         squares / samples / self.covariance(0)[0]
     }
+
+    /// Mean square of what is new in every difference, `d_t − a d_{t−1}`, over that of noise of unit variance whose neighbours
+    /// correlate by `a`.
+    pub(super) fn new_square(&self, a: f64) -> f64 {
+        let pairs = self.differences.windows(2);
+        let new: f64 = pairs.map(|w| (w[1] - a * w[0]).powi(2)).sum();
+        let [none, one] = [0, 1].map(|lag| at(a, &self.covariance(lag)));
+        new / (self.differences.len() as f64 - 1.0) / ((1.0 + a * a) * none - 2.0 * a * one)
+    }
 }
 
 /// Value of a polynomial of the correlation of neighbours.

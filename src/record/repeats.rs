@@ -89,7 +89,8 @@ fn noise_of(parts: Vec<Blended>) -> Option<Noise> {
     if samples < ENOUGH {
         return None;
     }
-    let calm: Vec<&Blended> = calm.iter().collect();
+    let calm = calm_between_neighbours(calm.iter().collect());
+    let samples = count(calm.iter().copied());
     let (deviation, autoregression) = moments(&calm);
     Some(Noise {
         deviation,
@@ -228,6 +229,37 @@ fn calm(parts: Vec<Blended>) -> Vec<Blended> {
         most = wider;
     }
     within(most).into_iter().cloned().collect()
+}
+
+/// Keeps the runs whose neighbours differ by no more than noise as slow as theirs makes them, by the same measure.
+///
+/// What is new in every sample tells a variance by all of a run's samples, however slow the noise: a corner of the response that
+/// interpolation misses shows in it, and would make slow noise look fast.
+fn calm_between_neighbours(mut parts: Vec<&Blended>) -> Vec<&Blended> {
+    for _ in 0..4 {
+        let (_, a) = moments(&parts);
+        if a == 0.0 {
+            break;
+        }
+        let squares: Vec<f64> = parts.iter().map(|part| part.new_square(a)).collect();
+        let mut ordered = squares.clone();
+        ordered.sort_by(f64::total_cmp);
+        let quartile = ordered[ordered.len() / 4];
+        let length = count(parts.iter().copied()) as f64 / parts.len() as f64;
+        let spread = (2.0 / length).sqrt();
+        let most = ((1.0 + SCATTER * spread) / (1.0 - 0.674 * spread).max(0.2)).max(2.0);
+        let both = parts.iter().zip(&squares);
+        let kept: Vec<&Blended> = both
+            .filter(|(_, square)| **square <= most * quartile)
+            .map(|(part, _)| *part)
+            .collect();
+        let enough = count(kept.iter().copied()) >= ENOUGH;
+        if !enough || kept.len() == parts.len() {
+            break;
+        }
+        parts = kept;
+    }
+    parts
 }
 
 /// Standard deviations above its mean up to which a cycle's variance passes for that of noise.
