@@ -165,7 +165,13 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
         return virgin;
     };
     let (all, best) = finely_moved(best, altogether);
-    let (all, best) = match reconsidered((all, &best), (&altogether, samples), input) {
+    // Another zero is the simpler way to begin, where it leaves as little.
+    let zero_suits = offset && !wins(all, altogether(&Beginning::at(input[0])), samples);
+    let other = match zero_suits {
+        true => None,
+        false => reconsidered((all, &best), (&altogether, samples), input),
+    };
+    let (all, best) = match other {
         Some(other) => finely_moved(other, altogether),
         None => (all, best),
     };
