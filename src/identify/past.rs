@@ -103,7 +103,8 @@ pub(super) fn reconsidered(
         deepened(further, (left, samples), DEEPEST, &older)
     };
     let mut now = (all, best.clone());
-    loop {
+    // Fewer turns may leave a little more, and more of them less again: that has to end.
+    for _ in 0..DEEPEST {
         let pairs = now.1.turned.len().saturating_sub(2);
         let others = (0..pairs).into_par_iter().map(|place| {
             let mut turned = now.1.turned.clone();

@@ -212,7 +212,7 @@ fn calm(parts: Vec<Blended>) -> Vec<Blended> {
         let calm = |part: &&Blended| part.mean_square() <= most * quartile;
         parts.iter().filter(calm).collect()
     };
-    let mut most: f64 = 2.0;
+    let mut most = TWICE;
     for _ in 0..8 {
         let calm = within(most);
         // From too few samples no correlation can be told.
@@ -221,8 +221,7 @@ fn calm(parts: Vec<Blended>) -> Vec<Blended> {
         }
         let (_, a) = moments(&calm);
         let spread = (2.0 * (1.0 + a * a) / (1.0 - a * a) / mean_length).sqrt();
-        // A normal variable's lower quartile lies 0.674 standard deviations below its mean.
-        let wider = (1.0 + SCATTER * spread) / (1.0 - 0.674 * spread).max(0.2);
+        let wider = above_quartile(spread);
         if wider <= most {
             break;
         }
@@ -247,7 +246,7 @@ fn calm_between_neighbours(mut parts: Vec<&Blended>) -> Vec<&Blended> {
         let quartile = ordered[ordered.len() / 4];
         let length = count(parts.iter().copied()) as f64 / parts.len() as f64;
         let spread = (2.0 / length).sqrt();
-        let most = ((1.0 + SCATTER * spread) / (1.0 - 0.674 * spread).max(0.2)).max(2.0);
+        let most = above_quartile(spread).max(TWICE);
         let both = parts.iter().zip(&squares);
         let kept: Vec<&Blended> = both
             .filter(|(_, square)| **square <= most * quartile)
@@ -261,6 +260,16 @@ fn calm_between_neighbours(mut parts: Vec<&Blended>) -> Vec<&Blended> {
     }
     parts
 }
+
+/// Variance of a run over the lower quartile's up to which it passes for that of noise, of variances that scatter by `spread` of their
+/// mean.
+fn above_quartile(spread: f64) -> f64 {
+    // A normal variable's lower quartile lies 0.674 standard deviations below its mean.
+    (1.0 + SCATTER * spread) / (1.0 - 0.674 * spread).max(0.2)
+}
+
+/// The least of what passes.
+const TWICE: f64 = 2.0;
 
 /// Standard deviations above its mean up to which a cycle's variance passes for that of noise.
 const SCATTER: f64 = 3.0;
