@@ -7,20 +7,28 @@ const WIDTHS: [usize; 6] = [2, 3, 4, 6, 8, 12];
 /// more, a sharp corner is further off than its noise.
 const ALIKE: f64 = 1.3;
 
+/// The same up to a width over which parabolas leave noise alone of the whole channel: there are no corners to keep then,
+/// and what two widths say differs by chance.
+const SURELY: f64 = 3.0;
+
 /// The channel as parabolas over its neighbours say it is, over as many as agree.
 ///
 /// A least-squares parabola over `2m + 1` samples has the variance `σ² 3(3m² + 3m − 1)/((2m − 1)(2m + 1)(2m + 3))` in
 /// their middle (Savitzky and Golay 1964). The widest is taken whose interval of [`ALIKE`] standard errors has a
 /// value in common with those of all narrower ones (intersection of confidence intervals, Goldenshluger and
-/// Nemirovski 1997), so that corners, jumps and peaks stay as they are. `noise` is `σ`. Checked by the tests below.
+/// Nemirovski 1997), so that corners, jumps and peaks stay as they are. Of [`SURELY`] standard errors are those up to the
+/// width over which the whole channel is smooth. `noise` is `σ`. Checked by the tests below.
 pub fn calmed(channel: &[f64], noise: f64) -> Vec<f64> {
+    let smooth = smooth_over(channel, noise);
+    let alike = |m: usize| if m <= smooth { SURELY } else { ALIKE };
     let calm = |i: usize| {
         let nearest = i.min(channel.len() - 1 - i);
         let mut value = channel[i];
-        let (mut low, mut high) = (value - ALIKE * noise, value + ALIKE * noise);
+        let within = alike(0) * noise;
+        let (mut low, mut high) = (value - within, value + within);
         for m in WIDTHS.into_iter().take_while(|&m| m <= nearest) {
             let (wider, error) = parabola(&channel[i - m..=i + m]);
-            let within = ALIKE * noise * error;
+            let within = alike(m) * noise * error;
             (low, high) = (low.max(wider - within), high.min(wider + within));
             if low > high {
                 break;
@@ -30,6 +38,25 @@ pub fn calmed(channel: &[f64], noise: f64) -> Vec<f64> {
         value
     };
     (0..channel.len()).map(calm).collect()
+}
+
+/// The widest neighbourhood over which parabolas leave no more of the channel than white noise of `noise`; zero where none do.
+///
+/// Of noise `n` samples leave `σ² (1 − error²)` each, within `√(2/n)` of it, and `σ` is known no better.
+fn smooth_over(channel: &[f64], noise: f64) -> usize {
+    let leaves_noise = |m: &usize| {
+        let around = channel.windows(2 * m + 1);
+        let count = around.len() as f64;
+        let (mut left, mut of_noise) = (0.0, 0.0);
+        for about in around {
+            let (value, error) = parabola(about);
+            left += (about[*m] - value).powi(2);
+            of_noise += noise * noise * (1.0 - error * error);
+        }
+        left < (1.0 + SURELY * (2.0 * 2.0 / count).sqrt()) * of_noise
+    };
+    let smooth = WIDTHS.into_iter().take_while(leaves_noise);
+    smooth.last().unwrap_or(0)
 }
 
 /// The channel as parabolas over the widest neighbourhood say it is, itself at its ends; and what is left of the variance of
@@ -107,6 +134,25 @@ mod tests {
         assert!((0.85..1.5).contains(&told), "{told}");
         let smooth: Vec<f64> = (0..2000).map(|i| (0.1 * f64::from(i)).sin()).collect();
         assert!(fastest(&smooth) < 1e-6);
+    }
+
+    /// A sine of 200 samples a cycle: twelve samples to either side leave three tenths of its noise.
+    #[test]
+    fn what_is_smooth_throughout_loses_most_of_its_noise() {
+        let mut random = drawn(20_261_128);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let true_value = |i: usize| 100.0 * (0.01 * std::f64::consts::PI * i as f64).sin();
+        let noisy: Vec<f64> = (0..4000).map(|i| true_value(i) + noise()).collect();
+        let calm = calmed(&noisy, fastest(&noisy));
+        let at = 20..3980;
+        let squares: f64 = at.clone().map(|i| (calm[i] - true_value(i)).powi(2)).sum();
+        let left = (squares / at.len() as f64).sqrt();
+        assert!(left < 0.36, "{left}");
+        assert_eq!(smooth_over(&noisy, 1.0), 12);
+        let corners: Vec<f64> = (0..4000)
+            .map(|i| noisy[i] + 10.0 * true_value(i).abs())
+            .collect();
+        assert!(smooth_over(&corners, 1.0) < 12);
     }
 
     /// A triangle and a jump of fifty times the noise: what noise is taken off leaves neither rounder.
