@@ -71,3 +71,67 @@ pub(super) fn walk(
         from = to;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, Problem};
+    use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
+    use crate::joint::parameters::Parameter;
+    use crate::record::Record;
+
+    /// Friction that grows with the displacement.
+    struct Pressed;
+
+    impl Effect for Pressed {
+        fn name(&self) -> &'static str {
+            "pressed"
+        }
+        fn place(&self) -> Place {
+            Place::SlipLimit
+        }
+        fn parameters(&self) -> &'static [Parameter] {
+            &[]
+        }
+        fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
+            SlipLimit::either_way(1.0 + values[0] * last.displacement)
+        }
+    }
+
+    /// A joint under a displacement that turned at 1 and at 0 before its record began, and the same record from the start.
+    #[test]
+    fn slip_limits_follow_what_a_joint_does_on_its_way_to_turns_before_its_record() {
+        let ramp = |i: usize| match i {
+            0..200 => 0.005 * i as f64,
+            200..400 => 2.0 - 0.005 * i as f64,
+            _ => (0.01 * (i as f64 - 400.0)).sin(),
+        };
+        let record = |samples: std::ops::Range<usize>| Record {
+            name: "pressed".to_string(),
+            displacement: samples.clone().map(ramp).collect(),
+            force: samples.map(ramp).collect(),
+            ..Record::default()
+        };
+        let whole = Problem::new(Form::Stop, &[record(0..1700)]);
+        let begins = Beginning::behind(vec![1.0, 0.0]);
+        let mut cut = whole.clone();
+        cut.records = Problem::begun(Form::Stop, &[record(400..1700)], &[begins]).records;
+        let coefficients = vec![1.0; whole.operators.columns()];
+        let effects = [Acting {
+            effect: &Pressed,
+            values: vec![0.5],
+        }];
+        let forces = |problem: &Problem, effects: &[Acting]| {
+            problem.predict(&coefficients, effects)[0].judged.clone()
+        };
+        let (long, short) = (forces(&whole, &effects), forces(&cut, &effects));
+        let plain = forces(&whole, &[]);
+        let apart = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        let does = apart(&long, &plain);
+        let off = apart(&long[400..], &short);
+        assert!(off < 0.02 * does, "{off} of {does}");
+    }
+}

@@ -69,6 +69,10 @@ pub(super) struct Wear {
 /// differences of a ten-thousandth is good to a part in a million of it, even for small effects.
 const PRECISE: f64 = 1e-13;
 
+/// Parts of the way to a turn before the record where slip limits follow what the joint does: a step takes them from its
+/// start.
+const ON_THE_WAY: u32 = 40;
+
 /// Trials after which a step takes what it has.
 const MOST_TRIALS: usize = 60;
 
@@ -254,8 +258,17 @@ impl<'a> March<'a> {
             return;
         }
         let (memories, dissipation) = (self.memories.clone(), self.last.dissipation);
+        let parts = match self.has[index(Place::SlipLimit)] {
+            true => ON_THE_WAY,
+            false => 1,
+        };
+        let mut from = 0.0;
         for &input in turned {
-            self.step(time, 0.0, input);
+            for part in 1..=parts {
+                let way = f64::from(part) / f64::from(parts);
+                self.step(time, 0.0, from + way * (input - from));
+            }
+            from = input;
         }
         self.memories = memories;
         self.earlier = None;
