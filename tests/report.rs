@@ -695,6 +695,17 @@ fn a_worse_prediction_comes_before_everything() {
 fn a_gain_that_may_be_none_is_not_claimed() {
     let mut found = explained();
     found.gain = (0.93, Some((0.81, 1.06)));
+    // What explains a record is borne out by its samples at least.
+    let said = text::render(&found).replace('\n', " ");
+    let but = "does not exclude that it is none, but the samples are over forty times as likely";
+    assert!(
+        said.split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+            .contains(but),
+        "{said}"
+    );
+    found.verdict = Verdict::PartlyExplained;
     assert!(text::render(&found).contains("falls by 7.0 %; the data do not prove a gain."));
     assert!(drawn(&found).contains("the data do not prove a gain."));
 }

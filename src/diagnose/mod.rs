@@ -58,6 +58,7 @@ use prepare::Bench;
 use ready::ready;
 use search::Found;
 use structure::structure;
+use tested::Prospect;
 use unseen_events::investigated;
 
 use crate::identify::{Fit, baseline, exported, refit, smoothed};
@@ -213,12 +214,12 @@ fn assemble(
         false => tone::tone(&bench.whole, &modelled, &bench.noise),
     };
     doubles.extend(toned.map(|tone| words::toned(&records[tone.record], &tone)));
+    // Of a few cycles a bootstrap draws some that show nothing of what happens once.
+    let likelier = || Prospect::of(bench, &found.baseline, &found.best).is_likelier();
+    let proven = gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0 || gain.0 < 1.0 && likelier();
     let verdict = verdict::verdict(
         named.then(|| {
-            gain.1.map_or(gain.0, |(_, upper)| upper) < 1.0
-                && !bench.noise_may_be_structure()
-                && doubles.is_empty()
-                && follows > FOLLOWS
+            proven && !bench.noise_may_be_structure() && doubles.is_empty() && follows > FOLLOWS
         }),
         &structure_before,
         &structure_after,

@@ -121,6 +121,9 @@ pub(super) fn gain_sentence(findings: &Findings) -> String {
     match change(findings) {
         Change::None => "Nothing was added to the baseline joint.".to_owned(),
         Change::Better => format!("The error on unseen data falls by {fall}."),
+        Change::PerhapsBetter if findings.verdict == Verdict::Explained => format!(
+            "The error on unseen data falls by {fall}; its scatter from cycle to cycle does not exclude that it is none, but the samples are over forty times as likely by the causes."
+        ),
         Change::PerhapsBetter => {
             format!("The error on unseen data falls by {fall}; the data do not prove a gain.")
         }
