@@ -696,15 +696,9 @@ fn a_gain_that_may_be_none_is_not_claimed() {
     let mut found = explained();
     found.gain = (0.93, Some((0.81, 1.06)));
     // What explains a record is borne out by its samples at least.
-    let said = text::render(&found).replace('\n', " ");
+    let said = words(&text::render(&found));
     let but = "does not exclude that it is none, but the samples are over forty times as likely";
-    assert!(
-        said.split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
-            .contains(but),
-        "{said}"
-    );
+    assert!(said.contains(but), "{said}");
     found.verdict = Verdict::PartlyExplained;
     assert!(text::render(&found).contains("falls by 7.0 %; the data do not prove a gain."));
     assert!(drawn(&found).contains("the data do not prove a gain."));

@@ -130,7 +130,7 @@ fn remembered(readings: &[f64]) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::identify::Form;
     use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
@@ -147,7 +147,7 @@ mod tests {
     }
 
     /// A load that presses the contacts together.
-    struct Pressed;
+    pub(in crate::identify) struct Pressed;
 
     impl Effect for Pressed {
         fn name(&self) -> &'static str {
@@ -160,11 +160,7 @@ mod tests {
             &[]
         }
         fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-            let limit = 1.0 + values[0] * last.force;
-            SlipLimit {
-                positive: limit,
-                negative: limit,
-            }
+            SlipLimit::either_way(1.0 + values[0] * last.force)
         }
     }
 

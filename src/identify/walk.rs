@@ -75,30 +75,12 @@ pub(super) fn walk(
 #[cfg(test)]
 mod tests {
     use crate::identify::beginning::Beginning;
+    use crate::identify::gone_on::tests::Pressed;
     use crate::identify::{Form, Problem};
-    use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
-    use crate::joint::parameters::Parameter;
+    use crate::joint::effect::Acting;
     use crate::record::Record;
 
-    /// Friction that grows with the displacement.
-    struct Pressed;
-
-    impl Effect for Pressed {
-        fn name(&self) -> &'static str {
-            "pressed"
-        }
-        fn place(&self) -> Place {
-            Place::SlipLimit
-        }
-        fn parameters(&self) -> &'static [Parameter] {
-            &[]
-        }
-        fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-            SlipLimit::either_way(1.0 + values[0] * last.displacement)
-        }
-    }
-
-    /// A joint under a displacement that turned at 1 and at 0 before its record began, and the same record from the start.
+    /// A joint under a force that turned at 1 and at 0 before its record began, and the same record from the start.
     #[test]
     fn slip_limits_follow_what_a_joint_does_on_its_way_to_turns_before_its_record() {
         let ramp = |i: usize| match i {
@@ -112,10 +94,10 @@ mod tests {
             force: samples.map(ramp).collect(),
             ..Record::default()
         };
-        let whole = Problem::new(Form::Stop, &[record(0..1700)]);
+        let whole = Problem::new(Form::Play, &[record(0..1700)]);
         let begins = Beginning::behind(vec![1.0, 0.0]);
         let mut cut = whole.clone();
-        cut.records = Problem::begun(Form::Stop, &[record(400..1700)], &[begins]).records;
+        cut.records = Problem::begun(Form::Play, &[record(400..1700)], &[begins]).records;
         let coefficients = vec![1.0; whole.operators.columns()];
         let effects = [Acting {
             effect: &Pressed,

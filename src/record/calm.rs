@@ -45,15 +45,11 @@ pub fn calmed(channel: &[f64], noise: f64) -> Vec<f64> {
 /// Of noise `n` samples leave `σ² (1 − error²)` each, within `√(2/n)` of it, and `σ` is known no better.
 fn smooth_over(channel: &[f64], noise: f64) -> usize {
     let leaves_noise = |m: &usize| {
-        let around = channel.windows(2 * m + 1);
-        let count = around.len() as f64;
-        let (mut left, mut of_noise) = (0.0, 0.0);
-        for about in around {
-            let (value, error) = parabola(about);
-            left += (about[*m] - value).powi(2);
-            of_noise += noise * noise * (1.0 - error * error);
-        }
-        left < (1.0 + SURELY * (2.0 * 2.0 / count).sqrt()) * of_noise
+        let (slow, kept) = slow_over(channel, *m);
+        let both = channel.iter().zip(&slow);
+        let left: f64 = both.map(|(value, slow)| (value - slow).powi(2)).sum();
+        let count = channel.len().saturating_sub(2 * m) as f64;
+        left < (1.0 + SURELY * (2.0 * 2.0 / count).sqrt()) * count * kept * noise * noise
     };
     let smooth = WIDTHS.into_iter().take_while(leaves_noise);
     smooth.last().unwrap_or(0)
@@ -62,12 +58,16 @@ fn smooth_over(channel: &[f64], noise: f64) -> usize {
 /// The channel as parabolas over the widest neighbourhood say it is, itself at its ends; and what is left of the variance of
 /// white noise about them.
 pub fn slow(channel: &[f64]) -> (Vec<f64>, f64) {
-    let widest = WIDTHS[WIDTHS.len() - 1];
+    slow_over(channel, WIDTHS[WIDTHS.len() - 1])
+}
+
+/// The same over `m` neighbours to either side.
+fn slow_over(channel: &[f64], m: usize) -> (Vec<f64>, f64) {
     let mut slow = channel.to_vec();
     let mut kept = 1.0;
-    for (i, about) in channel.windows(2 * widest + 1).enumerate() {
+    for (i, about) in channel.windows(2 * m + 1).enumerate() {
         let (value, error) = parabola(about);
-        slow[i + widest] = value;
+        slow[i + m] = value;
         kept = 1.0 - error * error;
     }
     (slow, kept)
