@@ -2,6 +2,7 @@
 
 use super::beginning::Beginning;
 use super::operators::Form;
+use super::tips;
 use crate::record::Record;
 use crate::record::peaks::Between;
 
@@ -59,7 +60,7 @@ impl Prepared {
 
     /// Finds the input's peaks between samples and its kinks (anew, where its samples were changed).
     pub fn look_between(&mut self, form: Form) {
-        self.between = self.between.anew(&self.time, self.channels(form).0);
+        self.between = tips::between(&self.between, &self.time, self.channels(form).0);
     }
 
     /// The record with another beginning than a virgin joint's; its input counts from the zero of that.

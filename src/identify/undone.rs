@@ -4,6 +4,7 @@ use super::late::{lateness, read_ahead};
 use super::march::added;
 use super::operators::Form;
 use super::prepared::Prepared;
+use super::tips;
 use crate::joint::effect::{Acting, Trajectory};
 use crate::record::peaks::Between;
 
@@ -112,7 +113,7 @@ pub(super) fn corrected(
 ) -> (Vec<f64>, Between) {
     let input: Vec<f64> = measured.iter().zip(added).map(|(m, a)| m - a).collect();
     if !found.thinned {
-        let found = found.anew(time, &input);
+        let found = tips::between(found, time, &input);
         return (input, found);
     }
     let mut moved = found.clone();
