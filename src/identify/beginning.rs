@@ -5,6 +5,7 @@
 //! virgin one until its own load has been everywhere before; taken for virgin, it would look as if friction
 //! changed over the first cycles.
 
+use super::before_all::before_all;
 use super::fit::{Fit, baseline, least_misfit};
 use super::gone_on::{from_reading, gone_on};
 use super::operators::Form;
@@ -88,7 +89,8 @@ pub const BAND: f64 = 0.02;
 /// what a virgin joint leaves until the load has turned twice; where the first reading is not zero, which a
 /// virgin joint's is as a rule, any part of it. The first readings themselves as the zeros are another alternative to
 /// the turns before them, however much they leave beside causes not yet known. A joint that goes on where the record
-/// before left it is one more, see [`gone_on`]. `first` is the baseline of virgin joints.
+/// before left it is one more, see [`gone_on`], and one that went through the same before each of them, see [`before_all`].
+/// `first` is the baseline of virgin joints.
 pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
@@ -104,7 +106,7 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
         }
     };
     let readings = problem.records.iter().map(reading).collect();
-    let mut all = gone_on(problem, nearest);
+    let mut all = before_all(problem, gone_on(problem, nearest));
     all.push(readings);
     let (first, _) = problem.channels(0);
     if !begins_within(OFFSET, first) {

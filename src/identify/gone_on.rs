@@ -23,11 +23,16 @@ pub(super) fn gone_on(problem: &Problem, nearest: Vec<Beginning>) -> Vec<Vec<Beg
     let left = |beginnings: &[Beginning]| least_misfit(&begun(problem, beginnings));
     let samples = problem.rows() as f64;
     let mut anew = vec![false; problem.records.len()];
-    let mut on = in_order(problem, &nearest, &anew);
+    // The first is virgin where it starts at zero, as a rule.
+    let first = match at_zero(problem.channels(0).0) {
+        true => Beginning::default(),
+        false => nearest[0].clone(),
+    };
+    let mut on = in_order(problem, &first, &anew);
     let mut left_on = left(&on);
     for k in 1..anew.len() {
         anew[k] = true;
-        let other = in_order(problem, &nearest, &anew);
+        let other = in_order(problem, &first, &anew);
         let left_other = left(&other);
         match wins(left_other, left_on, samples) {
             true => (on, left_on) = (other, left_other),
@@ -56,7 +61,7 @@ pub(super) fn from_reading(problem: &Problem, zero: f64) -> Option<Vec<Beginning
 }
 
 /// Records of virgin joints, with other beginnings.
-fn begun(problem: &Problem, beginnings: &[Beginning]) -> Problem {
+pub(super) fn begun(problem: &Problem, beginnings: &[Beginning]) -> Problem {
     let mut begun = problem.clone();
     for (record, beginning) in begun.records.iter_mut().zip(beginnings) {
         record.begin(problem.operators.form, beginning);
@@ -64,15 +69,10 @@ fn begun(problem: &Problem, beginnings: &[Beginning]) -> Problem {
     begun
 }
 
-/// Beginnings of records in the order of the tests, joints made `anew` for some; the first is virgin where it starts at
-/// zero, as a rule, and as it is `alone` elsewhere.
-fn in_order(problem: &Problem, alone: &[Beginning], anew: &[bool]) -> Vec<Beginning> {
-    let first = match at_zero(problem.channels(0).0) {
-        true => Beginning::default(),
-        false => alone[0].clone(),
-    };
+/// Beginnings of records in the order of the tests from that of the first on, joints made `anew` for some.
+pub(super) fn in_order(problem: &Problem, first: &Beginning, anew: &[bool]) -> Vec<Beginning> {
     let mut turned = first.turned.clone();
-    let mut all = vec![first];
+    let mut all = vec![first.clone()];
     for k in 0..problem.records.len() - 1 {
         let before = &problem.records[k];
         let (input, _) = problem.channels(k);
@@ -175,7 +175,7 @@ pub(super) mod tests {
         let records = [record(before), record(after)];
         let parted = Problem::new(Form::Play, &records);
         let virgin = vec![Beginning::default(); 2];
-        let on = in_order(&parted, &virgin, &[false; 2]);
+        let on = in_order(&parted, &virgin[0], &[false; 2]);
         let mut parted = begun(&parted, &on);
         parted.wears_on = true;
         let mut joint = vec![1e-10; whole.operators.columns()];

@@ -2,6 +2,7 @@
 //! non-negative least squares and joint refits, the parametric families, and the intervals of what
 //! they give.
 
+mod before_all;
 pub mod beginning;
 mod bonds;
 mod bracket;

@@ -155,7 +155,11 @@ fn moved(
     left: impl Fn(&Beginning) -> f64,
     (halved, sweeps): (RangeInclusive<i32>, usize),
 ) -> (f64, Beginning) {
-    let range = span(&begun.turned);
+    // One turn alone was as far from rest.
+    let range = match *begun.turned {
+        [turn] => turn.abs(),
+        _ => span(&begun.turned),
+    };
     let places = begun.turned.len();
     let mut best = (left(&begun), begun);
     for times in halved {
