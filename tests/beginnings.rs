@@ -95,8 +95,8 @@ fn turns_before_a_record_are_found_whatever_drifts() {
 }
 
 /// Forty plays in series through three tests one after the other, each from zero force to zero force; each but the
-/// first is as the one before left it, or new.
-fn tests_in_order(go_on: [bool; 2]) -> Vec<Record> {
+/// first is as the one before left it, or new; behind loads of which no record tells.
+fn tests_in_order(loads: &[f64], go_on: [bool; 2]) -> Vec<Record> {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut noise = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
     let levels = [
@@ -104,7 +104,7 @@ fn tests_in_order(go_on: [bool; 2]) -> Vec<Record> {
         [250.0, 500.0, 350.0],
         [500.0, 250.0, 400.0],
     ];
-    let mut before = Vec::new();
+    let mut before = loads.to_vec();
     let mut records = Vec::new();
     for (k, levels) in levels.into_iter().enumerate() {
         let bears = |i: usize| {
@@ -113,7 +113,7 @@ fn tests_in_order(go_on: [bool; 2]) -> Vec<Record> {
         };
         let force: Vec<f64> = (0..=12 * CYCLE).map(bears).collect();
         if k > 0 && !go_on[k - 1] {
-            before.clear();
+            before = loads.to_vec();
         }
         before.extend_from_slice(&force);
         let truth = plays::displacement(&before);
@@ -127,7 +127,7 @@ fn tests_in_order(go_on: [bool; 2]) -> Vec<Record> {
 #[test]
 fn joints_that_go_on_from_test_to_test_or_are_new_are_clean() {
     for go_on in [[true, true], [true, false], [false, true], [false, false]] {
-        let findings = diagnose(&tests_in_order(go_on), |_| ()).unwrap();
+        let findings = diagnose(&tests_in_order(&[], go_on), |_| ()).unwrap();
         let place = format!("seed {SEED}, go on: {go_on:?}");
         assert_eq!(findings.verdict, Verdict::Clean, "{place}: {findings:?}");
         let noted = [1, 2].map(|k| {
@@ -138,5 +138,19 @@ fn joints_that_go_on_from_test_to_test_or_are_new_are_clean() {
         // Nothing of them wears.
         let worn = findings.notes.iter().any(|n| n.contains("Wear goes on"));
         assert!(!worn, "{place}: {:?}", findings.notes);
+    }
+}
+
+/// A pull or a push at the assembly of which no record tells.
+#[test]
+fn joints_that_were_loaded_before_their_tests_are_clean() {
+    for (loads, go_on) in [(&[420.0, 0.0][..], true), (&[-560.0, 0.0], false)] {
+        let findings = diagnose(&tests_in_order(loads, [go_on; 2]), |_| ()).unwrap();
+        let place = format!("seed {SEED}, loads {loads:?}, go on: {go_on}");
+        assert_eq!(findings.verdict, Verdict::Clean, "{place}: {findings:?}");
+        let said =
+            "test-0 begins in the middle of a test, or behind a load of which no record tells";
+        let noted = findings.notes.iter().any(|note| note.contains(said));
+        assert!(noted, "{place}: {:?}", findings.notes);
     }
 }

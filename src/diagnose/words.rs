@@ -6,7 +6,7 @@ use super::judged_channel::compliance_ratio;
 use super::prepare::Bench;
 use super::tone::Tone;
 use crate::identify::Form;
-use crate::identify::beginning::Beginning;
+use crate::identify::beginning::{Beginning, at_zero};
 use crate::joint::effect::Acting;
 use crate::record::Record;
 use crate::record::outliers::stand_alone;
@@ -248,8 +248,12 @@ fn begins(record: &Record, beginning: &Beginning, form: Form) -> Option<String> 
         ));
     }
     if let Some(last) = beginning.turned.last() {
+        let or_behind = match at_zero(channel) {
+            true => ", or behind a load of which no record tells",
+            false => "",
+        };
         return Some(format!(
-            "Record {name} begins in the middle of a test: its {drive} came from a turn at {} or so.",
+            "Record {name} begins in the middle of a test{or_behind}: its {drive} came from a turn at {} or so.",
             quantity(*last, unit)
         ));
     }
