@@ -280,7 +280,7 @@ mod tests {
         peaks.iter().map(nearest).fold(0.0, f64::max)
     }
 
-    /// Corners, hyperbolas and parabolas, each through its own samples, are up to two in a hundred off.
+    /// Corners, hyperbolas and parabolas, each through its own samples, are up to three in a hundred off.
     #[test]
     fn tips_behind_a_servo_are_where_all_of_them_show() {
         for lag in [0.3, 0.7, 1.2] {
