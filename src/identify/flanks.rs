@@ -10,8 +10,6 @@ const UNLIKE: f64 = 3.0;
 pub(super) struct Tip {
     /// The sample that turns, and the turns beside it: before, itself, behind.
     pub about: [usize; 3],
-    /// Steps from the sample before it, and to the one behind.
-    pub steps: [f64; 2],
     /// Steps from other turns to the nearest samples that draw the flanks.
     reach: f64,
     /// Steps to the farthest samples that draw the flanks.
@@ -73,7 +71,6 @@ impl Tip {
         }
         let mut tip = Tip {
             about,
-            steps: [-from(turn - 1), from(turn + 1)],
             reach,
             far,
             lines,

@@ -63,7 +63,7 @@ pub(super) fn between(found: &Between, time: &[f64], input: &[f64]) -> Between {
         .filter(|shape| count(shape) >= MOST * most)
         .min_by(|a, b| a.error.total_cmp(&b.error));
     match shape {
-        Some(shape) => shape.put(found, time, input),
+        Some(shape) => shape.put(found, (time, step), input),
         None => found,
     }
 }
@@ -194,13 +194,12 @@ impl Shape {
     }
 
     /// The tips as the shape has them, where they differ from what was found by more than the shape errs.
-    fn put(&self, found: Between, time: &[f64], input: &[f64]) -> Between {
+    fn put(&self, found: Between, (time, step): (&[f64], f64), input: &[f64]) -> Between {
         let mut differs = Vec::new();
         let mut put = found.clone();
         for tip in &self.tips {
             let (at, value) = tip.top(self);
             let (turn, sense) = (tip.about[1], tip.sense());
-            let step = (time[turn + 1] - time[turn - 1]) / (tip.steps[1] + tip.steps[0]);
             let at = time[turn] + step * at;
             let own = |peak: &Peak| peak.before == turn || peak.before == turn + 1;
             let read = found.peaks.iter().filter(|peak| own(peak));
@@ -220,6 +219,7 @@ impl Shape {
             }
         }
         let differs = root_mean_square(differs.into_iter()) > BEYOND * self.error;
+        put.shaped = differs;
         match differs {
             true => put.in_order(),
             false => found,
@@ -243,7 +243,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     /// Parts of a step in which the drives below are made.
@@ -251,7 +251,7 @@ mod tests {
 
     /// A triangle that grows from level to level, 23.7 samples a cycle, behind a servo with the given lag in steps (none: as
     /// it is), and the turns of it as they are.
-    fn drive(lag: Option<f64>) -> (Vec<f64>, Vec<f64>) {
+    pub fn drive(lag: Option<f64>) -> (Vec<f64>, Vec<f64>) {
         let (mut fine, mut was) = (Vec::new(), 0.0);
         for i in 0..400 * PARTS {
             let cycle = i as f64 / PARTS as f64 / 23.7;
@@ -267,7 +267,7 @@ mod tests {
         (fine.into_iter().step_by(PARTS).collect(), tops)
     }
 
-    fn time() -> Vec<f64> {
+    pub fn time() -> Vec<f64> {
         (0..400).map(|i| 0.01 * f64::from(i)).collect()
     }
 
@@ -287,6 +287,7 @@ mod tests {
             let (input, tops) = drive(Some(lag));
             let single = Between::default().anew(&time(), &input);
             let found = between(&Between::default(), &time(), &input);
+            assert!(found.shaped && !single.shaped);
             // The first and the last have half a flank or none on one side, and where a level ends is no tip.
             let inner = |found: Between| -> Vec<Peak> {
                 let is_tip = |p: &Peak| (8..390).contains(&p.before) && p.value.abs() > 0.1;
@@ -318,6 +319,7 @@ mod tests {
         let sine: Vec<f64> = (0..400).map(|i| (0.265 * f64::from(i)).sin()).collect();
         let single = Between::default().anew(&time(), &sine);
         let found = between(&Between::default(), &time(), &sine);
+        assert!(!found.shaped);
         let [off, before] = [found, single].map(|found| worst(&found.peaks, &[-1.0, 1.0]));
         assert!(off <= before && before < 2e-4, "{off} {before}");
         let made = Between {

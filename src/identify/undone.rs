@@ -105,7 +105,8 @@ fn undone(form: Form, effects: &[Acting], truth: &mut Trajectory, measured: &[f6
 /// An input, and what it does between samples, without what was added.
 ///
 /// Both are found anew: hum upon a turn has tops of its own, and a rate that is told from those is none of the
-/// joint's. Of a record that was thinned the samples do not show them; what was found moves with its neighbours.
+/// joint's. Of a record that was thinned the samples do not show them; what was found moves with its neighbours. A shape
+/// that all tips share is a servo's: what no servo rounded has none once it is corrected.
 pub(super) fn corrected(
     time: &[f64],
     (measured, found): (&[f64], &Between),
@@ -113,7 +114,10 @@ pub(super) fn corrected(
 ) -> (Vec<f64>, Between) {
     let input: Vec<f64> = measured.iter().zip(added).map(|(m, a)| m - a).collect();
     if !found.thinned {
-        let found = tips::between(found, time, &input);
+        let found = match found.shaped {
+            true => tips::between(found, time, &input),
+            false => found.anew(time, &input),
+        };
         return (input, found);
     }
     let mut moved = found.clone();
@@ -197,5 +201,22 @@ mod tests {
         }
         let (_, off) = worst(&corrected(&time, (&read, &thinned), &hum).1);
         assert!(off > 1e-3, "{off}");
+    }
+
+    /// Drift of the cell that drives, taken off tips that a servo rounded, and off such that nothing did.
+    #[test]
+    fn tips_that_a_servo_rounds_keep_their_shape_where_a_drift_is_taken_off() {
+        use crate::identify::tips::tests::{drive, time};
+        let time = time();
+        let drift: Vec<f64> = time.iter().map(|t| 0.01 * t).collect();
+        for lag in [Some(0.7), None] {
+            let (input, _) = drive(lag);
+            let read: Vec<f64> = input.iter().zip(&drift).map(|(u, d)| u + d).collect();
+            let found = tips::between(&Between::default(), &time, &read);
+            let (back, anew) = corrected(&time, (&read, &found), &drift);
+            assert_eq!([found.shaped, anew.shaped], [lag.is_some(); 2]);
+            let single = Between::default().anew(&time, &back);
+            assert_eq!(anew == single, lag.is_none());
+        }
     }
 }

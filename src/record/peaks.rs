@@ -26,6 +26,8 @@ pub struct Between {
     pub thinned: bool,
     /// True where the input goes straight from sample to sample: it has no peaks between them.
     pub straight: bool,
+    /// True where a shape that all tips share tells of them what their own samples do not.
+    pub shaped: bool,
 }
 
 impl Between {
