@@ -177,20 +177,19 @@ impl Shape {
         root_mean_square(near.map(|s| s[1] - self.at(s[0])))
     }
 
-    /// True where a usual tip is likelier by this shape than by a corner that nothing rounds, its delays paid for.
+    /// True where the tips are likelier by this shape than by corners that nothing rounds, its delays paid for.
+    ///
+    /// Each tip has an error of its own: of noise small tips have the larger one over their jump, and the end of a level is as
+    /// unlikely by the one as by the other.
     fn is_no_corner(&self) -> bool {
-        let sharp = |tip: &Tip| {
-            root_mean_square(
-                tip.samples
-                    .iter()
-                    .map(|[at, behind]| behind - 0.5 * at.abs()),
-            )
+        let likelier = |tip: &Tip| {
+            let sharp = tip.samples.iter().map(|s| s[1] - 0.5 * s[0].abs());
+            let nearer = root_mean_square(sharp) / self.error_at(tip);
+            2.0 * tip.samples.len() as f64 * nearer.ln()
         };
-        let sharp = median(self.tips.iter().map(sharp).collect());
-        let error = median(self.errors().collect());
         let count: usize = self.tips.iter().map(|tip| tip.samples.len()).sum();
-        let (count, unknowns) = (count as f64, self.delays.len() as f64);
-        2.0 * count * (sharp / error).ln() > unknowns * count.ln()
+        let paid = self.delays.len() as f64 * (count as f64).ln();
+        self.tips.iter().map(likelier).sum::<f64>() > paid
     }
 
     /// The tips as the shape has them, where they differ from what was found by more than the shape errs.
@@ -306,6 +305,21 @@ pub(super) mod tests {
                 found.len(),
                 tops.len()
             );
+        }
+    }
+
+    /// Small tips have a large error over their jump, and where that is noise's it speaks for no shape.
+    #[test]
+    fn noise_in_a_drive_rounds_no_tips() {
+        let (sharp, _) = drive(None);
+        for (noise, seed) in [0.01, 0.02]
+            .into_iter()
+            .flat_map(|n| (0..40).map(move |s| (n, s)))
+        {
+            let mut random = crate::record::noise::tests::drawn(seed);
+            let noisy: Vec<f64> = sharp.iter().map(|x| x + noise * random()).collect();
+            let found = between(&Between::default(), &time(), &noisy);
+            assert!(!found.shaped, "noise {noise}, seed {seed}");
         }
     }
 
