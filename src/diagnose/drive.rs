@@ -7,12 +7,17 @@ use crate::record::calm::{calmed, fastest, slow};
 use crate::record::cycles::span;
 use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
+use crate::record::ramps::ramped;
 use crate::record::resolution::resolution;
 
 /// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
 /// by what the joint makes of it where that is most. A mass that answers to it was seen to take a fifth of that, and to
 /// pass for a cause at a few alarms; to smooth costs something as well, where a drive turns sharply.
 const COUNTS: f64 = 300.0;
+
+/// The same of a drive that goes straight from turn to turn: to draw it so costs nothing, and what its noise does at turns
+/// stays until the next one.
+const AT_TURNS: f64 = 1.0;
 
 /// Correlation of neighbours in the fast part of what the baseline leaves from which the judged channel's noise is slow.
 const SLOW: f64 = 0.3;
@@ -26,22 +31,26 @@ const PUSHES: f64 = 0.5;
 /// What the baseline leaves tells of that noise, and is taken off by as much as both go together, see [`apart`]. Where
 /// what is left of it would push sliders back between samples, the drive is smoothed as well.
 pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
-    let loud: Vec<Option<f64>> = records.iter().map(|r| drive_noise(form, r)).collect();
-    if loud.iter().all(Option::is_none) {
+    let loud = |counts: f64| -> Vec<Option<f64>> {
+        let noise = records.iter().map(|r| drive_noise(form, r, counts));
+        noise.collect()
+    };
+    let (straight, loud) = (straight(form, records, &loud(AT_TURNS)), loud(COUNTS));
+    if loud.iter().all(Option::is_none) && straight.iter().all(Option::is_none) {
         return records.to_vec();
     }
-    let problem = Problem::new(form, records);
-    let residuals = baseline(&problem).residuals(&problem);
-    let both = records.iter().zip(&residuals).zip(loud);
-    both.map(|((record, residual), noise)| {
+    let residuals = residuals(form, records);
+    let drawn = drawn(form, records, straight, &residuals);
+    let both = records.iter().zip(&residuals).zip(loud).zip(drawn);
+    both.map(|(((record, residual), noise), drawn)| {
+        if let Some(drawn) = drawn {
+            return drawn;
+        }
         let Some(noise) = noise else {
             return record.clone();
         };
         let mut record = record.clone();
-        let drive = match form {
-            Form::Play => &mut record.force,
-            Form::Stop => &mut record.displacement,
-        };
+        let drive = channel(form, &mut record);
         let Some((read, left)) = apart(drive, residual, noise) else {
             *drive = calmed(drive, noise);
             return record;
@@ -57,8 +66,57 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
     .collect()
 }
 
+/// What the baseline leaves.
+fn residuals(form: Form, records: &[Record]) -> Vec<Vec<f64>> {
+    let problem = Problem::new(form, records);
+    baseline(&problem).residuals(&problem)
+}
+
+/// Those of the records with noise in the drive of which that goes straight from turn to turn, drawn so.
+fn straight(form: Form, records: &[Record], noise: &[Option<f64>]) -> Vec<Option<Record>> {
+    let drawn = |(record, noise): (&Record, &Option<f64>)| {
+        let mut record = record.clone();
+        let clock = record.clock();
+        let drive = channel(form, &mut record);
+        noise.as_ref()?;
+        *drive = ramped(&clock, drive, fastest(drive))?;
+        record.drawn = true;
+        Some(record)
+    };
+    records.iter().zip(noise).map(drawn).collect()
+}
+
+/// Those of which the baseline leaves less as they are drawn: where a drive did what its noise says it leaves more.
+fn drawn(
+    form: Form,
+    records: &[Record],
+    straight: Vec<Option<Record>>,
+    residuals: &[Vec<f64>],
+) -> Vec<Option<Record>> {
+    if straight.iter().all(Option::is_none) {
+        return straight;
+    }
+    let both = records.iter().zip(&straight);
+    let all: Vec<Record> = both
+        .map(|(was, drawn)| drawn.as_ref().unwrap_or(was).clone())
+        .collect();
+    let then = self::residuals(form, &all);
+    let square = |residual: &[f64]| residual.iter().map(|r| r * r).sum::<f64>();
+    let less = straight.into_iter().zip(&then).zip(residuals);
+    less.map(|((drawn, then), before)| drawn.filter(|_| square(then) < square(before)))
+        .collect()
+}
+
+/// The channel that drives.
+fn channel(form: Form, record: &mut Record) -> &mut Vec<f64> {
+    match form {
+        Form::Play => &mut record.force,
+        Form::Stop => &mut record.displacement,
+    }
+}
+
 /// Noise of the channel that drives, where it counts.
-fn drive_noise(form: Form, record: &Record) -> Option<f64> {
+fn drive_noise(form: Form, record: &Record, counts: f64) -> Option<f64> {
     let (drive, judged) = form.channels(record);
     let steepest = match form {
         Form::Play => 1.0,
@@ -70,7 +128,7 @@ fn drive_noise(form: Form, record: &Record) -> Option<f64> {
     };
     let answered = noise * steepest * span(judged) / span(drive);
     let share = answered / fastest(judged).max(resolution(judged));
-    (share * share * judged.len() as f64 > COUNTS).then_some(noise)
+    (share * share * judged.len() as f64 > counts).then_some(noise)
 }
 
 /// Median magnitude of a channel's steps.
@@ -181,5 +239,42 @@ mod tests {
             })
             .collect();
         assert_eq!(apart(&drive, &slow, 1.0), None);
+    }
+
+    /// A triangle of force read with noise, of which the joint felt nothing, or all.
+    #[test]
+    fn ramps_are_drawn_where_the_joint_felt_no_noise() {
+        let mut random = drawn(20_261_128);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let triangle = |i: usize| {
+            let cycle = i as f64 / 73.0;
+            100.0 * (4.0 * ((cycle + 0.75).fract() - 0.5).abs() - 1.0)
+        };
+        let bare: Vec<f64> = (0..1500).map(triangle).collect();
+        let read: Vec<f64> = bare.iter().map(|force| force + 0.5 * noise()).collect();
+        let mut answer = |force: &[f64]| -> Vec<f64> {
+            let mut reached = [0.0_f64; 20];
+            let one = |force: &f64| {
+                for (j, play) in reached.iter_mut().enumerate() {
+                    let limit = 6.0 * (j + 1) as f64;
+                    *play = play.clamp(force - limit, force + limit);
+                }
+                1e-9 * (force + reached.iter().sum::<f64>() / 10.0 + 0.1 * noise())
+            };
+            force.iter().map(one).collect()
+        };
+        for (felt, displacement) in [(false, answer(&bare)), (true, answer(&read))] {
+            let record = Record {
+                time: Some((0..1500).map(|i| 0.01 * f64::from(i)).collect()),
+                force: read.clone(),
+                displacement,
+                ..Record::default()
+            };
+            let found = &without_drive_noise(Form::Play, &[record])[0];
+            assert_eq!(found.drawn, !felt);
+            let off = found.force.iter().zip(&bare).map(|(x, y)| (x - y).powi(2));
+            let rms = (off.sum::<f64>() / 1500.0).sqrt();
+            assert_eq!(rms < 0.2, !felt, "{rms}");
+        }
     }
 }

@@ -111,6 +111,7 @@ mod tests {
             temperature: None,
             acceleration: None,
             straight: false,
+            drawn: false,
             noisy_drive: false,
             alone: Vec::new(),
         };

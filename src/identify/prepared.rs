@@ -41,6 +41,7 @@ impl Prepared {
             name: record.name.clone(),
             between: Between {
                 straight: record.straight,
+                drawn: record.drawn,
                 ..Between::default()
             },
             steps,

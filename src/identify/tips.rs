@@ -42,10 +42,11 @@ const FINE: f64 = 3e-3;
 /// Times the error of the shape by which it has to differ from what single tips show.
 const BEYOND: f64 = 2.0;
 
-/// What an input does between its samples, with the tips that a shape of all of them shows better than their own samples.
+/// What an input does between its samples, with the tips that a shape of all of them shows better than their own samples:
+/// not of ramps that were drawn, which have corners.
 pub(super) fn between(found: &Between, time: &[f64], input: &[f64]) -> Between {
     let found = found.anew(time, input);
-    if found.straight || found.thinned {
+    if found.straight || found.drawn || found.thinned {
         return found;
     }
     let step = median(time.windows(2).map(|w| w[1] - w[0]).collect());

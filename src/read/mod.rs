@@ -83,6 +83,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
             temperature: numbers.take(Quantity::Temperature),
             acceleration: numbers.take(Quantity::Acceleration),
             straight: false,
+            drawn: false,
             noisy_drive: false,
             alone: Vec::new(),
         })

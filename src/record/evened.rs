@@ -58,6 +58,7 @@ pub fn evened(record: &Record) -> Option<Record> {
         temperature: record.temperature.as_ref().map(read),
         acceleration: record.acceleration.as_ref().map(read),
         straight: record.straight,
+        drawn: record.drawn,
         noisy_drive: record.noisy_drive,
         alone: match record.alone.is_empty() {
             true => Vec::new(),

@@ -10,6 +10,7 @@ pub mod mains;
 pub mod noise;
 pub mod outliers;
 pub mod peaks;
+pub mod ramps;
 pub mod repeats;
 pub mod resolution;
 pub mod ringing;
@@ -39,6 +40,8 @@ pub struct Record {
     /// True where the driving channel goes straight from sample to sample and turns at samples alone, as one does that
     /// a program made; false of a measured one, whose tips fall between them.
     pub straight: bool,
+    /// True where the driving channel was drawn by its ramps: it turns where they meet.
+    pub drawn: bool,
     /// True where noise of the driving channel shows in what a model leaves.
     pub noisy_drive: bool,
     /// Samples, in order, that stood alone in a channel and were replaced by what their neighbours say: no witnesses.

@@ -26,6 +26,8 @@ pub struct Between {
     pub thinned: bool,
     /// True where the input goes straight from sample to sample: it has no peaks between them.
     pub straight: bool,
+    /// True where the input was drawn by its ramps, and has the corners where they meet.
+    pub drawn: bool,
     /// True where a shape that all tips share tells of them what their own samples do not.
     pub shaped: bool,
 }
@@ -34,6 +36,7 @@ impl Between {
     /// What the samples do not show once they were changed.
     pub fn anew(&self, time: &[f64], channel: &[f64]) -> Between {
         let mut found = between(time, channel);
+        found.drawn = self.drawn;
         if self.straight {
             found.peaks.clear();
             found.straight = true;

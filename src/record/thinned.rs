@@ -41,6 +41,7 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
         temperature: optional(&record.temperature),
         acceleration: optional(&record.acceleration),
         straight: record.straight,
+        drawn: record.drawn,
         noisy_drive: record.noisy_drive,
         alone: alone.collect(),
     })
