@@ -12,6 +12,9 @@ const FEWEST: usize = 6;
 /// Times the scatter of its mean square by which noise may leave more of a line.
 const SURELY: f64 = 3.0;
 
+/// Variance of a sample beside a corner about lines through a dozen samples or more that meet there, over its own.
+const AND_LINES: f64 = 1.5;
+
 /// Share of the samples that lie on ramps, at least.
 const MOST: f64 = 0.8;
 
@@ -96,21 +99,33 @@ pub fn ramped(time: &[f64], channel: &[f64], noise: f64) -> Option<Vec<f64>> {
         (ramp.ends[0]..=ramp.ends[1]).for_each(|i| straight[i] = ramp.at(time[i]));
     }
     let (mut left, mut near) = (0.0, 0.0);
+    // What a servo rounds falls short of the corner in the samples beside it.
+    let (mut beyond, mut beside) = (0.0, 0.0);
     let stretches = found.split(Option::is_none);
     for stretch in stretches {
         let ramps: Vec<Ramp> = stretch.iter().flatten().flatten().copied().collect();
         for pair in ramps.windows(2) {
             let [about, last] = [pair[0].ends[1], pair[1].ends[0]];
             let meets = pair[0].meets(&pair[1], 0.5 * (time[about] + time[last]));
+            let step = (time[last] - time[about]) / (last - about) as f64;
+            let slopes = [0, 1].map(|k: usize| pair[k].slope(meets));
+            let turns = slopes[0] * slopes[1] < 0.0;
             let (low, high) = (about.saturating_sub(NEAR), last + NEAR);
             for i in low.max(pair[0].ends[0])..=high.min(pair[1].ends[1]) {
                 straight[i] = pair[usize::from(time[i] > meets)].at(time[i]);
-                left += (channel[i] - straight[i]).powi(2);
+                let off = channel[i] - straight[i];
+                left += off.powi(2);
                 near += 1.0;
+                if turns && (time[i] - meets).abs() < step {
+                    beyond += off * slopes[0].signum();
+                    beside += 1.0;
+                }
             }
         }
     }
-    (left <= noise_leaves(near, noise)).then_some(straight)
+    let scatter = noise * (AND_LINES * beside).sqrt();
+    let is_sharp = left <= noise_leaves(near, noise) && beyond >= -SURELY * scatter;
+    is_sharp.then_some(straight)
 }
 
 /// The ramps from one turn to the next: one, two straight ones that meet between them, or one that bends; none where it is
@@ -253,9 +268,11 @@ mod tests {
     fn what_is_bent_or_rounded_is_no_ramp() {
         let sine = |t: f64| (10.0 * t).sin();
         let rounded = |t: f64| (0.97 * (10.3 * t).sin()).asin();
-        for wave in [&sine as &dyn Fn(f64) -> f64, &rounded] {
+        // By less than the noise of a sample, a third of a step wide.
+        let hardly = |t: f64| (0.9998 * (10.3 * t).sin()).asin() / 0.9998_f64.asin();
+        for wave in [&sine as &dyn Fn(f64) -> f64, &rounded, &hardly] {
             let [time, _, read] = noisy(wave, 20_261_129);
-            assert_eq!(ramped(&time, &read, fastest(&read)), None);
+            assert!(ramped(&time, &read, fastest(&read)).is_none());
         }
     }
 }
