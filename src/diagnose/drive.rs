@@ -31,9 +31,10 @@ const PUSHES: f64 = 0.5;
 /// What the baseline leaves tells of that noise, and is taken off by as much as both go together, see [`apart`]. Where
 /// what is left of it would push sliders back between samples, the drive is smoothed as well.
 pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
+    let noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
     let loud = |counts: f64| -> Vec<Option<f64>> {
-        let noise = records.iter().map(|r| drive_noise(form, r, counts));
-        noise.collect()
+        let one = |&[noise, adds]: &[f64; 2]| (adds > counts).then_some(noise);
+        noise.iter().map(one).collect()
     };
     let (straight, loud) = (straight(form, records, &loud(AT_TURNS)), loud(COUNTS));
     if loud.iter().all(Option::is_none) && straight.iter().all(Option::is_none) {
@@ -115,8 +116,8 @@ fn channel(form: Form, record: &mut Record) -> &mut Vec<f64> {
     }
 }
 
-/// Noise of the channel that drives, where it counts.
-fn drive_noise(form: Form, record: &Record, counts: f64) -> Option<f64> {
+/// Noise of the channel that drives, and what it may add to the misfit of the record.
+fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
     let (drive, judged) = form.channels(record);
     let steepest = match form {
         Form::Play => 1.0,
@@ -128,7 +129,7 @@ fn drive_noise(form: Form, record: &Record, counts: f64) -> Option<f64> {
     };
     let answered = noise * steepest * span(judged) / span(drive);
     let share = answered / fastest(judged).max(resolution(judged));
-    (share * share * judged.len() as f64 > counts).then_some(noise)
+    [noise, share * share * judged.len() as f64]
 }
 
 /// Median magnitude of a channel's steps.

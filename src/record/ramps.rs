@@ -245,7 +245,7 @@ mod tests {
         let square: f64 = off.map(|d| d * d).sum();
         let rms = (square / clean.len() as f64).sqrt();
         assert!(rms < 1.2e-3, "{rms}");
-        // Tips as lines meet there: within a third of the noise, where a sample is off by all of it.
+        // Every tip is within the noise, by which a sample is off as a rule.
         let tips = super::super::peaks::between(&time, &found).peaks;
         assert!(tips.len() > 30, "{}", tips.len());
         for tip in tips.iter().filter(|tip| tip.value.abs() > 0.9) {
