@@ -8,7 +8,7 @@ use crate::record::cycles::span;
 use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
 use crate::record::ramps::ramped;
-use crate::record::resolution::resolution;
+use crate::record::resolution::{resolution, step};
 
 /// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
 /// by what the joint makes of it where that is most. A mass that answers to it was seen to take a fifth of that, and to
@@ -24,6 +24,9 @@ const SLOW: f64 = 0.3;
 
 /// Share of the median step of a drive from which its noise pushes sliders back that slide.
 const PUSHES: f64 = 0.5;
+
+/// Share of the deviation of a converter's steps that a channel shows sample by sample where it goes on by about one in each.
+const SHOWN: f64 = 0.5;
 
 /// The records without the noise of the driving channel where it counts: sliders that stick answer it with their whole
 /// stiffness; taken for the joint's, that looks like causes. A hum of the mains is no noise: it is a cause's to explain.
@@ -52,7 +55,11 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
         };
         let mut record = record.clone();
         let drive = channel(form, &mut record);
-        let Some((read, left)) = apart(drive, residual, noise) else {
+        let told = match stairs(drive) {
+            Some(_) => None,
+            None => apart(drive, residual, noise),
+        };
+        let Some((read, left)) = told else {
             *drive = calmed(drive, noise);
             return record;
         };
@@ -116,8 +123,15 @@ fn channel(form: Form, record: &mut Record) -> &mut Vec<f64> {
     }
 }
 
+/// Deviation `Δ/√12` of a drive that is read in steps and stays on each for some samples: it shows none sample by sample,
+/// and what it is off by follows the drive.
+fn stairs(drive: &[f64]) -> Option<f64> {
+    let deviation = step(drive)? / 12.0_f64.sqrt();
+    (fastest(drive) < SHOWN * deviation).then_some(deviation)
+}
+
 /// Noise of the channel that drives, and what it may add to the misfit of the record.
-fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
+pub(super) fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
     let (drive, judged) = form.channels(record);
     let steepest = match form {
         Form::Play => 1.0,
@@ -127,6 +141,7 @@ fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
         Some(time) => fastest(drive).min(beneath_mains(time, drive).deviation),
         None => fastest(drive),
     };
+    let noise = noise.max(stairs(drive).unwrap_or(0.0));
     let answered = noise * steepest * span(judged) / span(drive);
     let share = answered / fastest(judged).max(resolution(judged));
     [noise, share * share * judged.len() as f64]
@@ -277,5 +292,31 @@ mod tests {
             let rms = (off.sum::<f64>() / 1500.0).sqrt();
             assert_eq!(rms < 0.2, !felt, "{rms}");
         }
+    }
+
+    /// A load cell that reads in coarse steps shows no noise from sample to sample, and is off by its steps all the same.
+    #[test]
+    fn a_drive_that_stays_on_steps_is_smoothed() {
+        let swings = |i: usize| 100.0 * (std::f64::consts::TAU * i as f64 / 800.0).sin();
+        let force: Vec<f64> = (0..4000).map(swings).collect();
+        let read: Vec<f64> = force.iter().map(|f| (f / 3.0).round() * 3.0).collect();
+        assert_eq!(fastest(&read), 0.0);
+        let noise = crate::record::noise::tests::white(4000);
+        let both = force.iter().zip(&noise);
+        let record = Record {
+            displacement: both.map(|(f, e)| 1e-8 * (f + 0.5 * e)).collect(),
+            force: read.clone(),
+            time: Some((0..4000).map(|i| 1e-3 * f64::from(i)).collect()),
+            ..Record::default()
+        };
+        let calm = without_drive_noise(Form::Play, &[record]);
+        let off = |read: &[f64]| {
+            let off = read.iter().zip(&force).map(|(a, b)| (a - b).powi(2));
+            (off.sum::<f64>() / force.len() as f64).sqrt()
+        };
+        assert!(off(&calm[0].force) < 0.6 * off(&read));
+        // One that goes on by a step in each sample shows what it is off by.
+        let fast: Vec<f64> = read.iter().step_by(40).copied().collect();
+        assert!(stairs(&fast).is_none());
     }
 }

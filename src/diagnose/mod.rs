@@ -23,6 +23,7 @@ pub mod intervals;
 mod investigation;
 pub mod joint_parameters;
 pub mod judged_channel;
+mod noise_alone;
 mod noise_of_all;
 
 pub mod left_out;
@@ -134,7 +135,7 @@ const TAKES: f64 = 0.25;
 /// structure in it: without, the noise is larger than it was taken for. Those that take away no more than noise of a drive
 /// may bring, or noise of another kind than first-order, and those that one law outside the catalogue stands for, are taken
 /// back as well.
-fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
+fn sober(records: &[Record], bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
     let predictions = found.best.predict(&bench.train);
     let left = structure(&bench.train, &predictions, &bench.noise);
@@ -148,7 +149,8 @@ fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
         true => found.without(bench, all),
         false => {
             let stood_for = outsiders::stood_for(bench, &found, timed);
-            found.without(bench, stood_for)
+            let found = found.without(bench, stood_for);
+            noise_alone::beyond_noise(records, bench, found)
         }
     }
 }
@@ -161,7 +163,7 @@ fn assemble(
 ) -> Result<(Findings, Found, Fit), JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
     let named = found.best.effects.len();
-    let sober = sober(bench, found, timed);
+    let sober = sober(records, bench, found, timed);
     let taken_back = sober.best.effects.len() < named;
     let (found, whole_base) = rayon::join(
         || sober.clone().smoothed(bench),

@@ -7,7 +7,7 @@
 
 use super::before_all::before_all;
 use super::fit::{Fit, baseline, least_misfit};
-use super::gone_on::{from_reading, gone_on};
+use super::gone_on::{from_readings, gone_on};
 use super::operators::Form;
 use super::past::{finely_moved, past, reconsidered};
 use super::prepared::Prepared;
@@ -108,9 +108,15 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let readings = problem.records.iter().map(reading).collect();
     let mut all = before_all(problem, gone_on(problem, nearest));
     all.push(readings);
-    let (first, _) = problem.channels(0);
-    if !begins_within(OFFSET, first) {
-        all.extend(from_reading(problem, first[0]));
+    let firsts: Vec<f64> = (0..problem.records.len())
+        .map(|k| problem.channels(k).0[0])
+        .collect();
+    let off = |k: usize| !begins_within(OFFSET, problem.channels(k).0);
+    if off(0) {
+        all.extend(from_readings(problem, &vec![firsts[0]; firsts.len()]));
+    }
+    if (0..firsts.len()).any(off) {
+        all.extend(from_readings(problem, &firsts));
     }
     all.dedup();
     all.retain(|one| one.iter().any(|b| !b.is_virgin()));

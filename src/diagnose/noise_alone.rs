@@ -1,0 +1,242 @@
+//! What noise of the drive alone would make of a cause: records drawn as these are, but for it.
+
+use super::drive::{drive_noise, without_drive_noise};
+use super::prepare::{Bench, prepare};
+use super::search::Found;
+use super::trials::alarm;
+use crate::identify::beginning::Beginning;
+use crate::identify::{Fit, Form, refit};
+use crate::record::Record;
+use crate::record::calm::fastest;
+use crate::record::cycles::rms;
+use crate::record::resolution::step;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+/// What the noise of a drive adds, in variances of the judged channel's, from which it may pass for a cause.
+const MAY: f64 = 1.0;
+
+/// Correlation of neighbours in what a model leaves from which that may be of the drive's noise as well.
+const SLOW: f64 = 0.3;
+
+/// Times as much as of noise that a cause has to take. Judged: of clean records causes took 1.0 to 1.5 times the most of three
+/// draws, of records with a cause ten times and more.
+const TIMES: f64 = 2.0;
+
+/// Times what noise adds as its fastest part tells, `(1 + a)/(1 − a)` of neighbours that go together by 0.9: no cause takes
+/// more of it.
+const LOUDER: f64 = 20.0;
+
+/// The same from which one draw is enough.
+const SURELY: f64 = 5.0;
+
+/// Draws of each kind of noise where one is not.
+const DRAWN: u64 = 3;
+
+/// Share of what a model leaves, in variance, that is noise of the judged channel itself, at least.
+const OWN: f64 = 0.1;
+
+/// What was found without the causes that take no more of the records than of such as noise of the drive makes without
+/// them: whatever smooths a noisy drive, or follows how fast it changes, explains some of its noise.
+///
+/// A parametric bootstrap of the null hypothesis (Efron and Tibshirani 1993, 16.6) for each cause beside the others. The
+/// noise is as loud in its fastest part as that of the drive; where what is left is slow, slow noise of either channel is
+/// drawn in turn. Checked by the tests below.
+pub(super) fn beyond_noise(records: &[Record], bench: &Bench, found: Found) -> Found {
+    let form = bench.train.operators.form;
+    let noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
+    if noise.iter().all(|[_, adds]| *adds < MAY) {
+        return found;
+    }
+    let drives = Drives {
+        records,
+        bench,
+        noise,
+    };
+    let mut found = found;
+    loop {
+        let places = 0..found.best.effects.len();
+        let by_noise = places
+            .filter(|k| drives.takes_as_much(&found, *k))
+            .collect();
+        let left = found.clone().without(bench, by_noise);
+        if left.best.effects.len() == found.best.effects.len() {
+            return left;
+        }
+        found = left;
+    }
+}
+
+/// Records whose drives are noisy.
+struct Drives<'a> {
+    records: &'a [Record],
+    bench: &'a Bench,
+    /// Noise of each drive, and what it may add to the misfit.
+    noise: Vec<[f64; 2]>,
+}
+
+impl Drives<'_> {
+    /// True where a cause of the set takes no more than noise of the drives gives it.
+    fn takes_as_much(&self, found: &Found, k: usize) -> bool {
+        let (train, best) = (&self.bench.train, &found.best);
+        let mut others = best.effects.clone();
+        others.remove(k);
+        let without = match others.is_empty() {
+            true => found.baseline.clone(),
+            false => refit(train, best, others),
+        };
+        let takes = without.misfit - best.misfit - alarm(train);
+        if takes > LOUDER * self.noise.iter().map(|[_, adds]| adds).sum::<f64>() {
+            return false;
+        }
+        let slow = self.bench.noise.iter().any(|n| n.autoregression > SLOW);
+        let kinds: &[bool] = if slow { &[false, true] } else { &[false] };
+        kinds.iter().any(|&slow| {
+            let of_noise = |seed: u64| self.fall((&without, best), (slow, seed));
+            let once = of_noise(0);
+            if takes > SURELY * once {
+                return false;
+            }
+            let more = (1..DRAWN).into_par_iter().map(of_noise);
+            takes < TIMES * more.reduce(|| once, f64::max)
+        })
+    }
+
+    /// Misfit that a set with a cause takes beyond one without of records that are as the one without has them.
+    fn fall(&self, (without, with): (&Fit, &Fit), (slow, seed): (bool, u64)) -> f64 {
+        let form = self.bench.train.operators.form;
+        let drawn = self.drawn(without, (slow, seed));
+        let begun = self.bench.train.records.iter();
+        let beginnings: Vec<Beginning> = begun.map(|r| r.beginning.clone()).collect();
+        let of_noise = prepare(form, &without_drive_noise(form, &drawn), &beginnings);
+        let left = |fit: &Fit| refit(&of_noise.train, fit, fit.effects.clone()).misfit;
+        left(without) - left(with)
+    }
+
+    /// The records as a model has them, with noise in the drive of which the joint felt nothing.
+    fn drawn(&self, model: &Fit, (slow, seed): (bool, u64)) -> Vec<Record> {
+        let mut random = ChaCha8Rng::seed_from_u64(20_010_811 + seed);
+        let whole = &self.bench.whole;
+        let (predicted, left) = (model.predict(whole), model.residuals(whole));
+        let one = |(k, record): (usize, &Record)| {
+            let alike = self.bench.noise[k].autoregression;
+            let (of_drive, of_judged) = if slow { (alike, 0.0) } else { (0.0, alike) };
+            let left = rms(&left[k]);
+            let prepared = &whole.records[k];
+            let (drive, judged) = (whole.channels(k).0, &predicted[k].judged);
+            let true_drive: Vec<f64> = drive.iter().map(|x| x + prepared.beginning.zero).collect();
+            let (read, answered) = match step(whole.operators.form.channels(record).0) {
+                Some(step) => {
+                    let read = true_drive.iter().map(|x| (x / step).round() * step);
+                    (read.collect(), 0.0)
+                }
+                None => self.with_noise((k, record), &true_drive, (of_drive, left), &mut random),
+            };
+            let own = (left * left - answered * answered).max(OWN * left * left);
+            let noise = coloured(&mut random, judged.len(), of_judged, own.sqrt());
+            let judged = judged.iter().zip(noise).map(|(y, f)| y + f).collect();
+            of_channels(whole.operators.form, record, (read, judged))
+        };
+        self.records.iter().enumerate().map(one).collect()
+    }
+
+    /// A drive as its channel reads it, and what a model answers to the noise, at most what it leaves.
+    fn with_noise(
+        &self,
+        (k, record): (usize, &Record),
+        drive: &[f64],
+        (alike, left): (f64, f64),
+        random: &mut ChaCha8Rng,
+    ) -> (Vec<f64>, f64) {
+        let [loud, adds] = self.noise[k];
+        let (_, judged) = self.bench.train.operators.form.channels(record);
+        let steepest = (adds / drive.len() as f64).sqrt() * fastest(judged) / loud;
+        let noise = coloured(random, drive.len(), alike, 1.0);
+        let loud = (loud / fastest(&noise)).min(left / steepest);
+        let read = drive.iter().zip(&noise).map(|(x, e)| x + loud * e);
+        (read.collect(), steepest * loud)
+    }
+}
+
+/// A record with other channels: the one that drives and the judged one.
+fn of_channels(form: Form, record: &Record, (drive, judged): (Vec<f64>, Vec<f64>)) -> Record {
+    let (force, displacement) = match form {
+        Form::Play => (drive, judged),
+        Form::Stop => (judged, drive),
+    };
+    Record {
+        force,
+        displacement,
+        ..record.clone()
+    }
+}
+
+/// Noise of a deviation whose neighbours go together.
+fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -> Vec<f64> {
+    let mut last = 0.0;
+    let mut next = || {
+        // Twelve uniform numbers have the variance one, and a sum that is nearly normal.
+        let white = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+        last = alike * last + (1.0 - alike * alike).sqrt() * white;
+        deviation * last
+    };
+    (0..count).map(|_| next()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::diagnose;
+    use crate::diagnose::gridded::tests::slid;
+    use crate::record::noise::tests::drawn;
+
+    /// Cycles of 79 samples that fall, slow noise in the displacement that drives and noise as loud in the force, which a
+    /// cell reads so many samples late.
+    fn falling(seed: u64, late: usize) -> Record {
+        let mut random = drawn(seed);
+        let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let limits: Vec<f64> = (1..=40).map(|j| 0.03 * f64::from(j)).collect();
+        let swings = |i: usize| {
+            let t = i as f64;
+            (0.3 + 0.7 * (-t / 900.0).exp()) * (std::f64::consts::TAU * t / 79.0).sin()
+        };
+        let displacement: Vec<f64> = (0..2000).map(swings).collect();
+        let force = slid(&limits, &displacement);
+        let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        let mut slow = 0.0;
+        let mut read = |x: &f64| {
+            slow = 0.66 * slow + 0.75 * white();
+            x + 0.015 * slow
+        };
+        let displacement = displacement.iter().map(&mut read).collect();
+        let at = |i: usize| force[i.saturating_sub(late)];
+        Record {
+            name: "falling".to_string(),
+            force: (0..2000)
+                .map(|i| at(i) + 0.009 * largest * white())
+                .collect(),
+            displacement,
+            time: Some((0..2000).map(|i| 4e-4 * i as f64).collect()),
+            ..Record::default()
+        }
+    }
+
+    fn named(record: Record) -> Vec<String> {
+        let found = diagnose(&[record], |_| {}).unwrap();
+        let causes = found.causes.into_iter();
+        causes.map(|c| c.name).collect()
+    }
+
+    #[test]
+    fn noise_in_the_drive_is_no_cause() {
+        for seed in 1..=4 {
+            assert!(named(falling(seed, 0)).is_empty(), "{seed}");
+        }
+    }
+
+    #[test]
+    fn a_cause_beside_noise_in_the_drive_is_one() {
+        assert_eq!(named(falling(1, 3)), ["sensor_delay"]);
+    }
+}
