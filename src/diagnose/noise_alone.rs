@@ -5,7 +5,7 @@ use super::prepare::{Bench, prepare};
 use super::search::Found;
 use super::trials::alarm;
 use crate::identify::beginning::Beginning;
-use crate::identify::{Fit, Form, refit};
+use crate::identify::{Fit, Form, Problem, refit};
 use crate::record::Record;
 use crate::record::calm::fastest;
 use crate::record::cycles::rms;
@@ -109,8 +109,14 @@ impl Drives<'_> {
         let drawn = self.drawn(without, (slow, seed));
         let begun = self.bench.train.records.iter();
         let beginnings: Vec<Beginning> = begun.map(|r| r.beginning.clone()).collect();
-        let of_noise = prepare(form, &without_drive_noise(form, &drawn), &beginnings);
-        let left = |fit: &Fit| refit(&of_noise.train, fit, fit.effects.clone()).misfit;
+        let mut of_noise = prepare(form, &without_drive_noise(form, &drawn), &beginnings);
+        of_noise.fit_also(self.bench.fitted);
+        // The thresholds are those of the fits.
+        let problem = Problem {
+            records: of_noise.train.records,
+            ..self.bench.train.clone()
+        };
+        let left = |fit: &Fit| refit(&problem, fit, fit.effects.clone()).misfit;
         left(without) - left(with)
     }
 
@@ -187,8 +193,11 @@ fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::causes::find;
     use crate::diagnose::diagnose;
     use crate::diagnose::gridded::tests::slid;
+    use crate::identify::baseline;
+    use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;
 
     /// Cycles of 79 samples that fall, slow noise in the displacement that drives and noise as loud in the force, which a
@@ -238,5 +247,33 @@ mod tests {
     #[test]
     fn a_cause_beside_noise_in_the_drive_is_one() {
         assert_eq!(named(falling(1, 3)), ["sensor_delay"]);
+    }
+
+    /// Draws are met by the thresholds that the records were, be there more of them.
+    #[test]
+    fn records_that_need_other_thresholds_are_drawn_as_well() {
+        let record = falling(1, 3);
+        let mut bench = prepare(Form::Stop, &[record.clone()], &[Beginning::default()]);
+        let evenly = vec![1.0; bench.train.operators.columns()];
+        for problem in [&mut bench.whole, &mut bench.train] {
+            problem.operators = problem.operators.adapted(&evenly, 90);
+        }
+        let without = baseline(&bench.train);
+        let acting = Acting {
+            effect: find("sensor_delay").unwrap().effect(),
+            values: vec![0.0, 0.0, 1e-3],
+        };
+        let with = refit(&bench.train, &without, vec![acting]);
+        let drives = Drives {
+            records: &[record.clone()],
+            bench: &bench,
+            noise: vec![drive_noise(Form::Stop, &record)],
+        };
+        let takes = without.misfit - with.misfit;
+        let of_noise = drives.fall((&without, &with), (false, 0));
+        assert!(
+            of_noise >= 0.0 && of_noise < 0.2 * takes,
+            "{of_noise} of {takes}"
+        );
     }
 }

@@ -108,18 +108,39 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
     let readings = problem.records.iter().map(reading).collect();
     let mut all = before_all(problem, gone_on(problem, nearest));
     all.push(readings);
-    let firsts: Vec<f64> = (0..problem.records.len())
-        .map(|k| problem.channels(k).0[0])
-        .collect();
-    let off = |k: usize| !begins_within(OFFSET, problem.channels(k).0);
-    if off(0) {
-        all.extend(from_readings(problem, &vec![firsts[0]; firsts.len()]));
-    }
-    if (0..firsts.len()).any(off) {
-        all.extend(from_readings(problem, &firsts));
+    for zeros in zeros(problem) {
+        all.extend(from_readings(problem, &zeros));
     }
     all.dedup();
     all.retain(|one| one.iter().any(|b| !b.is_virgin()));
+    all
+}
+
+/// Readings of a joint at rest that goes on through all records, none where all of them begin at zero: those of a sensor that
+/// none has touched, of one set anew where each test begins at rest, and of one set anew while the joint stayed where it was.
+fn zeros(problem: &Problem) -> Vec<Vec<f64>> {
+    let inputs: Vec<&[f64]> = (0..problem.records.len())
+        .map(|k| problem.channels(k).0)
+        .collect();
+    if inputs.iter().all(|input| begins_within(OFFSET, input)) {
+        return Vec::new();
+    }
+    let own: Vec<f64> = inputs.iter().map(|input| input[0]).collect();
+    let mut stayed = vec![own[0]];
+    for (k, pair) in inputs.windows(2).enumerate() {
+        let reached = pair[0][pair[0].len() - 1] - stayed[k];
+        stayed.push(own[k + 1] - reached);
+    }
+    let mut all = vec![own.clone()];
+    for other in [vec![own[0]; own.len()], stayed] {
+        let near = |one: &Vec<f64>| {
+            let mut apart = one.iter().zip(&other).zip(&inputs);
+            apart.all(|((a, b), input)| (a - b).abs() <= OFFSET * span(input))
+        };
+        if !all.iter().any(near) {
+            all.push(other);
+        }
+    }
     all
 }
 
