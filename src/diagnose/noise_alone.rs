@@ -253,7 +253,11 @@ mod tests {
     #[test]
     fn records_that_need_other_thresholds_are_drawn_as_well() {
         let record = falling(1, 3);
-        let mut bench = prepare(Form::Stop, &[record.clone()], &[Beginning::default()]);
+        let mut bench = prepare(
+            Form::Stop,
+            std::slice::from_ref(&record),
+            &[Beginning::default()],
+        );
         let evenly = vec![1.0; bench.train.operators.columns()];
         for problem in [&mut bench.whole, &mut bench.train] {
             problem.operators = problem.operators.adapted(&evenly, 90);
@@ -265,7 +269,7 @@ mod tests {
         };
         let with = refit(&bench.train, &without, vec![acting]);
         let drives = Drives {
-            records: &[record.clone()],
+            records: std::slice::from_ref(&record),
             bench: &bench,
             noise: vec![drive_noise(Form::Stop, &record)],
         };

@@ -133,8 +133,8 @@ fn remembered(readings: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::beginning::beginnings;
     use super::*;
+    use crate::identify::beginning::beginnings;
     use crate::identify::{Form, baseline};
     use crate::joint::effect::{Acting, Effect, Place, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
