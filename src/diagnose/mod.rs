@@ -135,7 +135,7 @@ const TAKES: f64 = 0.25;
 /// structure in it: without, the noise is larger than it was taken for. Those that take away no more than noise of a drive
 /// may bring, or noise of another kind than first-order, and those that one law outside the catalogue stands for, are taken
 /// back as well.
-fn sober(records: &[Record], bench: &Bench, found: Found, timed: bool) -> Found {
+fn sober(bench: &Bench, found: Found, timed: bool) -> Found {
     let rows = bench.train.rows() as f64;
     let predictions = found.best.predict(&bench.train);
     let left = structure(&bench.train, &predictions, &bench.noise);
@@ -149,8 +149,7 @@ fn sober(records: &[Record], bench: &Bench, found: Found, timed: bool) -> Found 
         true => found.without(bench, all),
         false => {
             let stood_for = outsiders::stood_for(bench, &found, timed);
-            let found = found.without(bench, stood_for);
-            noise_alone::beyond_noise(records, bench, found)
+            found.without(bench, stood_for)
         }
     }
 }
@@ -163,7 +162,11 @@ fn assemble(
 ) -> Result<(Findings, Found, Fit), JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
     let named = found.best.effects.len();
-    let sober = sober(records, bench, found, timed);
+    let kept = sober(bench, found, timed);
+    let sober = noise_alone::beyond_noise(records, bench, kept.clone());
+    let by_noise = kept.best.effects.iter().map(|a| a.effect.name());
+    let by_noise = by_noise.filter(|name| sober.best.effect(name).is_none());
+    let by_noise: Vec<&str> = by_noise.collect();
     let taken_back = sober.best.effects.len() < named;
     let (found, whole_base) = rayon::join(
         || sober.clone().smoothed(bench),
@@ -247,6 +250,7 @@ fn assemble(
     let astray = (!goes_together).then(|| words::goes_astray(follows));
     let mut notes: Vec<String> = astray.into_iter().collect();
     notes.extend(words::notes(records, bench, &whole.effects));
+    notes.extend(words::of_drive_noise(&by_noise));
     notes.extend(said);
     notes.extend(whereabouts::of_jumps(records, &whole.effects));
     let (judged, unit) = bench.whole.operators.form.judged();

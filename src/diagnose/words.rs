@@ -199,6 +199,17 @@ pub fn was_uneven(names: &[String]) -> String {
     )
 }
 
+/// What is said of causes that noise of the drive does the work of; nothing of none.
+pub fn of_drive_noise(names: &[&str]) -> Option<String> {
+    let names: Vec<String> = names.iter().map(|name| in_words(name)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Not named, as noise of the driving channel alone makes as much of it: {}.",
+            names.join(", ")
+        )
+    })
+}
+
 /// What is said where the two channels hardly go together.
 pub fn goes_astray(follows: f64) -> String {
     format!(
