@@ -8,7 +8,7 @@ use crate::record::cycles::span;
 use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
 use crate::record::ramps::ramped;
-use crate::record::resolution::{resolution, step};
+use crate::record::resolution::{of_steps, resolution};
 
 /// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
 /// by what the joint makes of it where that is most. A mass that answers to it was seen to take a fifth of that, and to
@@ -83,10 +83,10 @@ fn residuals(form: Form, records: &[Record]) -> Vec<Vec<f64>> {
 /// Those of the records with noise in the drive of which that goes straight from turn to turn, drawn so.
 fn straight(form: Form, records: &[Record], noise: &[Option<f64>]) -> Vec<Option<Record>> {
     let drawn = |(record, noise): (&Record, &Option<f64>)| {
+        noise.as_ref()?;
         let mut record = record.clone();
         let clock = record.clock();
         let drive = channel(form, &mut record);
-        noise.as_ref()?;
         *drive = ramped(&clock, drive, fastest(drive))?;
         record.drawn = true;
         Some(record)
@@ -126,7 +126,7 @@ fn channel(form: Form, record: &mut Record) -> &mut Vec<f64> {
 /// Deviation `Δ/√12` of a drive that is read in steps and stays on each for some samples: it shows none sample by sample,
 /// and what it is off by follows the drive.
 fn stairs(drive: &[f64]) -> Option<f64> {
-    let deviation = step(drive)? / 12.0_f64.sqrt();
+    let deviation = of_steps(drive)?;
     (fastest(drive) < SHOWN * deviation).then_some(deviation)
 }
 

@@ -163,10 +163,9 @@ fn assemble(
     let timed = records.iter().all(|r| r.time.is_some());
     let named = found.best.effects.len();
     let kept = sober(bench, found, timed);
-    let sober = noise_alone::beyond_noise(records, bench, kept.clone());
-    let by_noise = kept.best.effects.iter().map(|a| a.effect.name());
-    let by_noise = by_noise.filter(|name| sober.best.effect(name).is_none());
-    let by_noise: Vec<&str> = by_noise.collect();
+    let mut by_noise: Vec<&str> = kept.best.effects.iter().map(|a| a.effect.name()).collect();
+    let sober = noise_alone::beyond_noise(records, bench, kept);
+    by_noise.retain(|name| sober.best.effect(name).is_none());
     let taken_back = sober.best.effects.len() < named;
     let (found, whole_base) = rayon::join(
         || sober.clone().smoothed(bench),

@@ -80,12 +80,7 @@ impl Drives<'_> {
     /// True where a cause of the set takes no more than noise of the drives gives it.
     fn takes_as_much(&self, found: &Found, k: usize) -> bool {
         let (train, best) = (&self.bench.train, &found.best);
-        let mut others = best.effects.clone();
-        others.remove(k);
-        let without = match others.is_empty() {
-            true => found.baseline.clone(),
-            false => refit(train, best, others),
-        };
+        let without = found.clone().without(self.bench, vec![k]).best;
         let takes = without.misfit - best.misfit - alarm(train);
         if takes > LOUDER * self.noise.iter().map(|[_, adds]| adds).sum::<f64>() {
             return false;

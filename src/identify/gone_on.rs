@@ -205,7 +205,8 @@ pub(super) mod tests {
         }
     }
 
-    /// A load cell whose zero is off in both tests of a joint, by the same or set anew for each: neither a virgin joint nor one that goes on from zero.
+    /// A load cell whose zero is off in both tests of a joint, by the same or set anew for each: neither a virgin joint
+    /// nor one that goes on from zero.
     #[test]
     fn a_joint_goes_on_from_where_a_sensor_reads_no_zero() {
         let bears = |i: usize| {
@@ -238,8 +239,7 @@ pub(super) mod tests {
                 let same = (one[1].zero - zeros[1]).abs() < 1e-9;
                 one[0] == at[0] && one[1].goes_on && same
             };
-            let found = told.iter().find(goes_on);
-            let found = found.unwrap();
+            let found = told.iter().find(goes_on).unwrap();
             let left = |beginnings: &[Beginning]| least_misfit(&begun(&problem, beginnings));
             assert!(left(found) < 0.1 * left(&at));
         }

@@ -18,8 +18,12 @@ const ONE: f64 = 1e-9;
 
 /// Least deviation that noise of a channel is taken for: `1e-4` of its rms, or `Δ/√12` where it is read in steps of `Δ`.
 pub fn resolution(channel: &[f64]) -> f64 {
-    let of_steps = step(channel).map_or(0.0, |step| step / 12.0_f64.sqrt());
-    of_steps.max(FINEST * rms(channel))
+    of_steps(channel).unwrap_or(0.0).max(FINEST * rms(channel))
+}
+
+/// Deviation `Δ/√12` of what a channel that is read in steps of `Δ` is off by; `None` of others.
+pub fn of_steps(channel: &[f64]) -> Option<f64> {
+    step(channel).map(|step| step / 12.0_f64.sqrt())
 }
 
 /// The step in which a channel is read; `None` where its values are not whole multiples of one apart.
