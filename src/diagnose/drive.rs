@@ -1,9 +1,10 @@
 //! The noise of the channel that drives, of which the joint felt nothing.
 
 use super::judged_channel::compliance_ratio;
+use super::smooth_drive::smooth;
 use crate::identify::{Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::calm::{calmed, fastest, slow};
+use crate::record::calm::{calmed, fastest, fastest_part, slow};
 use crate::record::cycles::span;
 use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
@@ -15,9 +16,9 @@ use crate::record::resolution::{of_steps, resolution};
 /// pass for a cause at a few alarms; to smooth costs something as well, where a drive turns sharply.
 const COUNTS: f64 = 300.0;
 
-/// The same of a drive that goes straight from turn to turn: to draw it so costs nothing, and what its noise does at turns
-/// stays until the next one.
-const AT_TURNS: f64 = 1.0;
+/// The same of a drive that goes straight from turn to turn or is smooth throughout: to draw it so costs nothing, while what
+/// its noise does at turns stays until the next one, and a rate that is read off it is louder than itself.
+const DRAWN: f64 = 1.0;
 
 /// Correlation of neighbours in the fast part of what the baseline leaves from which the judged channel's noise is slow.
 const SLOW: f64 = 0.3;
@@ -39,22 +40,24 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
         let one = |&[noise, adds]: &[f64; 2]| (adds > counts).then_some(noise);
         noise.iter().map(one).collect()
     };
-    let (straight, loud) = (straight(form, records, &loud(AT_TURNS)), loud(COUNTS));
-    if loud.iter().all(Option::is_none) && straight.iter().all(Option::is_none) {
+    let heard = loud(DRAWN);
+    if heard.iter().all(Option::is_none) {
         return records.to_vec();
     }
     let residuals = residuals(form, records);
-    let drawn = drawn(form, records, straight, &residuals);
-    let both = records.iter().zip(&residuals).zip(loud).zip(drawn);
-    both.map(|(((record, residual), noise), drawn)| {
-        if let Some(drawn) = drawn {
-            return drawn;
+    let straight = drawn(form, records, straight(form, records, &heard), &residuals);
+    let smooth = smooth(form, records, &heard, &residuals);
+    let plain = straight.into_iter().zip(smooth).map(|(a, b)| a.or(b));
+    let both = records.iter().zip(&residuals).zip(loud(COUNTS)).zip(plain);
+    both.map(|(((record, residual), noise), plain)| {
+        if let Some(plain) = plain {
+            return plain;
         }
         let Some(noise) = noise else {
             return record.clone();
         };
         let mut record = record.clone();
-        let drive = channel(form, &mut record);
+        let (drive, _) = form.channels_mut(&mut record);
         let told = match stairs(drive) {
             Some(_) => None,
             None => apart(drive, residual, noise),
@@ -86,7 +89,7 @@ fn straight(form: Form, records: &[Record], noise: &[Option<f64>]) -> Vec<Option
         noise.as_ref()?;
         let mut record = record.clone();
         let clock = record.clock();
-        let drive = channel(form, &mut record);
+        let (drive, _) = form.channels_mut(&mut record);
         *drive = ramped(&clock, drive, fastest(drive))?;
         record.drawn = true;
         Some(record)
@@ -113,14 +116,6 @@ fn drawn(
     let less = straight.into_iter().zip(&then).zip(residuals);
     less.map(|((drawn, then), before)| drawn.filter(|_| square(then) < square(before)))
         .collect()
-}
-
-/// The channel that drives.
-fn channel(form: Form, record: &mut Record) -> &mut Vec<f64> {
-    match form {
-        Form::Play => &mut record.force,
-        Form::Stop => &mut record.displacement,
-    }
 }
 
 /// Deviation `Δ/√12` of a drive that is read in steps and stays on each for some samples: it shows none sample by sample,
@@ -150,12 +145,6 @@ pub(super) fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
 /// Median magnitude of a channel's steps.
 fn usual_step(channel: &[f64]) -> f64 {
     median(channel.windows(2).map(|w| (w[1] - w[0]).abs()).collect())
-}
-
-/// Differences of sixth order: of a load nothing is left in them.
-fn fastest_part(channel: &[f64]) -> Vec<f64> {
-    let once = |values: Vec<f64>| values.windows(2).map(|w| w[1] - w[0]).collect();
-    (0..6).fold(channel.to_vec(), |values, _| once(values))
 }
 
 /// The drive without what a model's residual tells of its noise, and the noise that is left.

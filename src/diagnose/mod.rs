@@ -38,6 +38,7 @@ mod ready;
 mod refinements;
 pub mod search;
 mod sizes;
+mod smooth_drive;
 mod striking;
 pub mod structure;
 mod tested;

@@ -5,7 +5,7 @@ use super::prepare::{Bench, prepare};
 use super::search::Found;
 use super::trials::alarm;
 use crate::identify::beginning::Beginning;
-use crate::identify::{Fit, Form, Problem, refit};
+use crate::identify::{Fit, Problem, refit};
 use crate::record::Record;
 use crate::record::calm::fastest;
 use crate::record::cycles::rms;
@@ -137,7 +137,10 @@ impl Drives<'_> {
             let own = (left * left - answered * answered).max(OWN * left * left);
             let noise = coloured(&mut random, judged.len(), of_judged, own.sqrt());
             let judged = judged.iter().zip(noise).map(|(y, f)| y + f).collect();
-            of_channels(whole.operators.form, record, (read, judged))
+            let mut drawn = record.clone();
+            let (of_drive, of_judged) = whole.operators.form.channels_mut(&mut drawn);
+            (*of_drive, *of_judged) = (read, judged);
+            drawn
         };
         self.records.iter().enumerate().map(one).collect()
     }
@@ -160,19 +163,6 @@ impl Drives<'_> {
     }
 }
 
-/// A record with other channels: the one that drives and the judged one.
-fn of_channels(form: Form, record: &Record, (drive, judged): (Vec<f64>, Vec<f64>)) -> Record {
-    let (force, displacement) = match form {
-        Form::Play => (drive, judged),
-        Form::Stop => (judged, drive),
-    };
-    Record {
-        force,
-        displacement,
-        ..record.clone()
-    }
-}
-
 /// Noise of a deviation whose neighbours go together.
 fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -> Vec<f64> {
     let mut last = 0.0;
@@ -191,7 +181,7 @@ mod tests {
     use crate::causes::find;
     use crate::diagnose::diagnose;
     use crate::diagnose::gridded::tests::slid;
-    use crate::identify::baseline;
+    use crate::identify::{Form, baseline};
     use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;
 

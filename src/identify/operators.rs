@@ -37,6 +37,14 @@ impl Form {
         }
     }
 
+    /// The same to be changed.
+    pub fn channels_mut(self, record: &mut Record) -> (&mut Vec<f64>, &mut Vec<f64>) {
+        match self {
+            Form::Play => (&mut record.force, &mut record.displacement),
+            Form::Stop => (&mut record.displacement, &mut record.force),
+        }
+    }
+
     /// The input's channel, as a place where effects act.
     pub fn input_place(self) -> Place {
         match self {
