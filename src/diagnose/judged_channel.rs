@@ -19,6 +19,26 @@ const DEEP_SLIP: f64 = 8.0;
 /// has to be. Short of full slip, where every force still has its displacement, force drives if it is plainly the one
 /// with less noise.
 pub fn form(records: &[Record]) -> Form {
+    let (force, displacement) = noise(records);
+    let deep = is_deep(records);
+    let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
+    if deep && !force_drives() {
+        return Form::Stop;
+    }
+    let alike = (force / displacement).max(displacement / force) < ALIKE;
+    if alike && let Some(drives) = commanded(records) {
+        return drives;
+    }
+    // Of two that show no noise at all neither is the more.
+    if displacement >= force * (1.0 - f64::EPSILON.sqrt()) {
+        Form::Play
+    } else {
+        Form::Stop
+    }
+}
+
+/// Noise of force and of displacement as shares of what they do, summed over the records.
+fn noise(records: &[Record]) -> (f64, f64) {
     let (mut force, mut displacement) = (0.0, 0.0);
     for record in records {
         let noise = |channel: &[f64]| {
@@ -39,20 +59,31 @@ pub fn form(records: &[Record]) -> Form {
         force += noise(&record.force);
         displacement += noise(&record.displacement);
     }
-    let deep = records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP);
-    let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
-    if deep && !force_drives() {
-        return Form::Stop;
-    }
-    let alike = (force / displacement).max(displacement / force) < ALIKE;
-    if alike && let Some(drives) = commanded(records) {
-        return drives;
-    }
-    // Of two that show no noise at all neither is the more.
-    if displacement >= force * (1.0 - f64::EPSILON.sqrt()) {
-        Form::Play
-    } else {
-        Form::Stop
+    (force, displacement)
+}
+
+fn is_deep(records: &[Record]) -> bool {
+    records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP)
+}
+
+/// The other form of records whose channels' noise is alike, where it is one that their joint has.
+pub(super) fn other_form(records: &[Record], form: Form) -> Option<Form> {
+    let by = quieter_by(records, form);
+    let alike = by.max(by.recip()) < ALIKE;
+    let other = match form {
+        Form::Play => Form::Stop,
+        Form::Stop => Form::Play,
+    };
+    let has = other == Form::Stop || !is_deep(records) && full_slip(records).is_none();
+    (alike && has).then_some(other)
+}
+
+/// Noise of the judged channel over that of the drive, as shares of what both do.
+pub(super) fn quieter_by(records: &[Record], form: Form) -> f64 {
+    let (force, displacement) = noise(records);
+    match form {
+        Form::Play => displacement / force,
+        Form::Stop => force / displacement,
     }
 }
 

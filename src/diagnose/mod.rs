@@ -30,6 +30,7 @@ pub mod left_out;
 pub mod levels;
 mod loud;
 mod mains_phase;
+mod other_form;
 mod outsiders;
 mod places;
 pub mod prepare;
@@ -56,6 +57,7 @@ use drive::without_drive_noise;
 use experiment::dummy::Settled;
 use findings::{NoiseFinding, Unexplained, Verdict};
 use investigation::Investigation;
+use other_form::{Seen, seen_from_both};
 use prepare::Bench;
 use ready::ready;
 use search::Found;
@@ -96,7 +98,14 @@ pub fn diagnose_with(
     let (records, form) = (ready.records.as_slice(), ready.form);
     let used: usize = records.iter().map(Record::len).sum();
     let calm = without_drive_noise(form, records);
-    let Investigation { bench, found } = investigated((form, &calm), timed, &mut progress);
+    let investigation = investigated((form, &calm), timed, &mut progress);
+    let seen = Seen {
+        form,
+        calm,
+        investigation,
+    };
+    let seen = seen_from_both(records, seen, timed, &mut progress);
+    let (calm, Investigation { bench, found }) = (seen.calm, seen.investigation);
     progress("measuring the gain on held-out cycles");
     let settled = match &options.dummy {
         Some(dummy) => experiment::dummy::settle(&bench, found, &struck_out(dummy)),

@@ -51,6 +51,11 @@ impl Found {
         }
     }
 
+    /// True where no cause is named.
+    pub fn is_plain(&self) -> bool {
+        self.best.effects.is_empty()
+    }
+
     /// Without the named causes at these places; the others are fitted anew.
     pub fn without(self, bench: &Bench, places: Vec<usize>) -> Found {
         if places.is_empty() {

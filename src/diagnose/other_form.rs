@@ -1,0 +1,133 @@
+//! Records of which neither channel is plainly the quieter, seen in the other form as well.
+
+use super::growing::leaves_structure;
+use super::investigation::Investigation;
+use super::judged_channel::{other_form, quieter_by};
+use super::noise_alone::beyond_noise;
+use super::prepare::Bench;
+use super::search::Found;
+use super::sober;
+use super::trials::{alarm, dispersion, penalty};
+use super::unseen_events::investigated;
+use super::without_drive_noise;
+use crate::identify::Form;
+use crate::record::Record;
+
+/// Times the evidence that a cause must have beyond which the other form is not asked: what brings that much was never seen to
+/// be missing there.
+const PLAIN: f64 = 15.0;
+
+/// Records in the form they were searched in, and what was found.
+pub(super) struct Seen {
+    pub form: Form,
+    pub calm: Vec<Record>,
+    pub investigation: Investigation,
+}
+
+/// What was found, or the other form where noise alone is left in that and no cause: of a channel that drives noise is
+/// answered by sliders that stick, or turn, and looks like a cause of little evidence, which the other form knows nothing of.
+///
+/// A cause that is at work is seen in both: by evidence `E` in one and about `E (s/s′)²` in the other, with s and s′ the
+/// noise of the judged channels as shares of what they do. Asked is where that is as much as a cause must have, and `E` no more
+/// than [`PLAIN`] times as much.
+pub(super) fn seen_from_both(
+    records: &[Record],
+    seen: Seen,
+    timed: bool,
+    progress: &mut impl FnMut(&str),
+) -> Seen {
+    let Investigation { bench, found } = &seen.investigation;
+    let problem = &bench.train;
+    let taken = found.baseline.misfit - found.best.misfit;
+    let evidence = taken / dispersion(problem, &found.best) - penalty(problem, found.best.free());
+    let wanted = alarm(problem);
+    let Some(form) = other_form(records, seen.form) else {
+        return seen;
+    };
+    let there = evidence / quieter_by(records, seen.form).powi(2);
+    let asked = there > wanted && evidence < PLAIN * wanted;
+    if found.best.effects.is_empty() || !asked || kept(records, bench, found, timed).is_plain() {
+        return seen;
+    }
+    progress("once more: neither channel is the quieter one, and the other may drive");
+    nothing_at_work(records, form, timed, progress).unwrap_or(seen)
+}
+
+/// What is found in a form, where that is no cause and noise alone is left.
+fn nothing_at_work(
+    records: &[Record],
+    form: Form,
+    timed: bool,
+    progress: &mut impl FnMut(&str),
+) -> Option<Seen> {
+    let calm = without_drive_noise(form, records);
+    let Investigation { bench, found } = investigated((form, &calm), timed, progress);
+    let found = kept(records, &bench, &found, timed);
+    let nothing = found.is_plain() && !leaves_structure(&bench.train, &found.best);
+    nothing.then_some(Seen {
+        form,
+        calm,
+        investigation: Investigation { bench, found },
+    })
+}
+
+/// What stays of a set: what noise of a drive makes is no cause in either form, nor the least bad of wrong explanations.
+fn kept(records: &[Record], bench: &Bench, found: &Found, timed: bool) -> Found {
+    beyond_noise(records, bench, sober(bench, found.clone(), timed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::gridded::tests::slid;
+    use crate::record::noise::tests::drawn;
+
+    /// Five sines that come and go, of a joint of sliders beside a spring that hardens, with noise as loud in both channels.
+    fn swung(seed: u64, hardens: f64) -> Record {
+        let mut random = drawn(seed);
+        let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let limits: Vec<f64> = (1..=40).map(|j| 0.03 * f64::from(j)).collect();
+        let swings = |i: usize| {
+            let t = i as f64 / 32.0;
+            let sines = (1..=5).map(|k| (std::f64::consts::TAU * 0.23 * f64::from(k) * t).sin());
+            (t / 10.0).min(1.0) * 0.3 * sines.sum::<f64>()
+        };
+        let displacement: Vec<f64> = (0..1200).map(swings).collect();
+        let force = slid(&limits, &displacement).into_iter();
+        let both = force.zip(&displacement);
+        let hardened = both.map(|(f, u)| f + hardens * u.powi(3));
+        let noisy: Vec<f64> = hardened.map(|f| f + 0.07 * white()).collect();
+        Record {
+            name: "swung".to_string(),
+            force: noisy,
+            displacement: displacement.iter().map(|u| u + 0.003 * white()).collect(),
+            time: Some((0..1200).map(|i| 0.01 * i as f64).collect()),
+            ..Record::default()
+        }
+    }
+
+    #[test]
+    fn what_is_at_work_is_seen_with_either_channel_driving() {
+        let hardened = [swung(4, 3.0)];
+        for form in [Form::Play, Form::Stop] {
+            assert!(other_form(&hardened, form).is_some(), "not alike");
+            assert!(nothing_at_work(&hardened, form, true, &mut |_| {}).is_none());
+        }
+        let clean = nothing_at_work(&[swung(4, 0.0)], Form::Stop, true, &mut |_| {});
+        assert!(clean.is_some_and(|seen| seen.investigation.found.is_plain()));
+    }
+
+    /// A channel that is plainly the quieter one drives, whatever the other form says.
+    #[test]
+    fn a_quiet_drive_is_asked_no_second_time() {
+        let record = swung(4, 0.0);
+        let asked = |record: &Record| other_form(std::slice::from_ref(record), Form::Play);
+        assert_eq!(asked(&record), Some(Form::Stop));
+        let smooth = (0..1200).map(|i| (0.05 * f64::from(i)).sin()).collect();
+        let quiet = Record {
+            displacement: smooth,
+            ..record
+        };
+        assert_eq!(asked(&quiet), None);
+    }
+}
