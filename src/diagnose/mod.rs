@@ -99,12 +99,9 @@ pub fn diagnose_with(
     let used: usize = records.iter().map(Record::len).sum();
     let calm = without_drive_noise(form, records);
     let investigation = investigated((form, &calm), timed, &mut progress);
-    let seen = Seen {
-        form,
-        calm,
-        investigation,
-    };
+    let seen = Seen::once(form, calm, investigation);
     let seen = seen_from_both(records, seen, timed, &mut progress);
+    let unseen = words::of_other_form(&seen.unseen, seen.form);
     let (calm, Investigation { bench, found }) = (seen.calm, seen.investigation);
     progress("measuring the gain on held-out cycles");
     let settled = match &options.dummy {
@@ -115,6 +112,7 @@ pub fn diagnose_with(
     findings.outlook.dummy = settled.said;
     let said = findings.records.iter_mut().zip(given);
     said.for_each(|((_, samples, _), given)| *samples = given);
+    findings.notes.extend(unseen);
     if !ready.uneven.is_empty() {
         findings.notes.push(words::was_uneven(&ready.uneven));
     }

@@ -22,6 +22,20 @@ pub(super) struct Seen {
     pub form: Form,
     pub calm: Vec<Record>,
     pub investigation: Investigation,
+    /// Causes of the other form that nothing is seen of in this one.
+    pub unseen: Vec<String>,
+}
+
+impl Seen {
+    /// Records that were searched in one form so far.
+    pub fn once(form: Form, calm: Vec<Record>, investigation: Investigation) -> Seen {
+        Seen {
+            form,
+            calm,
+            investigation,
+            unseen: Vec::new(),
+        }
+    }
 }
 
 /// What was found, or the other form where noise alone is left in that and no cause: of a channel that drives noise is
@@ -50,7 +64,13 @@ pub(super) fn seen_from_both(
         return seen;
     }
     progress("once more: neither channel is the quieter one, and the other may drive");
-    nothing_at_work(records, form, timed, progress).unwrap_or(seen)
+    match nothing_at_work(records, form, timed, progress) {
+        Some(other) => Seen {
+            unseen: names(&seen.investigation.found),
+            ..other
+        },
+        None => seen,
+    }
 }
 
 /// What is found in a form, where that is no cause and noise alone is left.
@@ -64,11 +84,12 @@ fn nothing_at_work(
     let Investigation { bench, found } = investigated((form, &calm), timed, progress);
     let found = kept(records, &bench, &found, timed);
     let nothing = found.is_plain() && !leaves_structure(&bench.train, &found.best);
-    nothing.then_some(Seen {
-        form,
-        calm,
-        investigation: Investigation { bench, found },
-    })
+    nothing.then(|| Seen::once(form, calm, Investigation { bench, found }))
+}
+
+fn names(found: &Found) -> Vec<String> {
+    let named = found.best.effects.iter();
+    named.map(|a| a.effect.name().to_string()).collect()
 }
 
 /// What stays of a set: what noise of a drive makes is no cause in either form, nor the least bad of wrong explanations.

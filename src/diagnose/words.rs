@@ -210,6 +210,18 @@ pub fn of_drive_noise(names: &[&str]) -> Option<String> {
     })
 }
 
+/// What is said of causes that only the form shows which is not this one; nothing of none.
+pub fn of_other_form(names: &[String], form: Form) -> Option<String> {
+    let in_words: Vec<String> = names.iter().map(|name| in_words(name)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "Not named, as nothing is seen of it with the {} as the input, though neither channel is plainly the quieter: {}.",
+            form.input().0,
+            in_words.join(", ")
+        )
+    })
+}
+
 /// What is said where the two channels hardly go together.
 pub fn goes_astray(follows: f64) -> String {
     format!(
