@@ -100,6 +100,7 @@ fn kept(records: &[Record], bench: &Bench, found: &Found, timed: bool) -> Found 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::diagnose;
     use crate::diagnose::gridded::tests::slid;
     use crate::record::noise::tests::drawn;
 
@@ -150,5 +151,55 @@ mod tests {
             ..record
         };
         assert_eq!(asked(&quiet), None);
+    }
+
+    /// Random loads of three levels on sliders, a force read in coarse steps and noise in the displacement.
+    fn loads(seed: u64) -> Vec<Record> {
+        let mut random = drawn(seed);
+        let mut limits = Vec::new();
+        for _ in 0..40 {
+            let normal = (0..12).map(|_| random()).sum::<f64>() - 6.0;
+            limits.push(0.35 * (1.2 * normal).exp());
+        }
+        let one = |(amplitude, cycle): (f64, f64)| {
+            let sines: Vec<[f64; 3]> = (0..12)
+                .map(|k| {
+                    let rate = std::f64::consts::TAU / cycle * (0.15 + 0.1 * f64::from(k));
+                    [rate, std::f64::consts::TAU * random(), 0.5 + random()]
+                })
+                .collect();
+            let at = |i: usize| {
+                let of = |[rate, phase, size]: &[f64; 3]| size * (rate * i as f64 + phase).sin();
+                (i as f64 / 20.0).min(1.0) * sines.iter().map(of).sum::<f64>()
+            };
+            let raw: Vec<f64> = (0..375).map(at).collect();
+            let largest = raw.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let displacement: Vec<f64> = raw.iter().map(|x| amplitude * x / largest).collect();
+            let force = slid(&limits, &displacement);
+            let mut read = |u: &f64| {
+                let white = (0..12).map(|_| random()).sum::<f64>() - 6.0;
+                u + 0.0022 * (1.0 + 1.5 * u.abs()) * white
+            };
+            Record {
+                name: format!("at {amplitude}"),
+                displacement: displacement.iter().map(&mut read).collect(),
+                force: force.iter().map(|f| (f / 0.19).round() * 0.19).collect(),
+                time: Some((0..375).map(|i| 0.2 * f64::from(i)).collect()),
+                ..Record::default()
+            }
+        };
+        [(1.0, 32.0), (0.73, 32.0), (0.47, 41.0)].map(one).to_vec()
+    }
+
+    /// Two of forty clean campaigns that had up to three causes with the force driving.
+    #[test]
+    fn what_one_form_alone_shows_is_not_named() {
+        for seed in [6, 15] {
+            let found = diagnose(&loads(seed), |_| {}).unwrap();
+            let names: Vec<&str> = found.causes.iter().map(|c| c.name.as_str()).collect();
+            assert!(names.is_empty(), "{seed}: {names:?}");
+            let said = |n: &String| n.contains("neither channel is plainly the quieter");
+            assert!(found.notes.iter().any(said), "{:?}", found.notes);
+        }
     }
 }
