@@ -1,7 +1,7 @@
 //! The noise of the channel that drives, of which the joint felt nothing.
 
 use super::judged_channel::compliance_ratio;
-use super::smooth_drive::smooth;
+use super::smooth_drive::{smooth, unfelt};
 use crate::identify::{Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::calm::{calmed, fastest, fastest_part, slow};
@@ -40,15 +40,18 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
         let one = |&[noise, adds]: &[f64; 2]| (adds > counts).then_some(noise);
         noise.iter().map(one).collect()
     };
-    let heard = loud(DRAWN);
-    if heard.iter().all(Option::is_none) {
+    let (heard, loud) = (loud(DRAWN), loud(COUNTS));
+    let straight = straight(form, records, &heard);
+    let smooth = smooth(form, records, &heard);
+    let none = |of: &[Option<Record>]| of.iter().all(Option::is_none);
+    if loud.iter().all(Option::is_none) && none(&straight) && none(&smooth) {
         return records.to_vec();
     }
     let residuals = residuals(form, records);
-    let straight = drawn(form, records, straight(form, records, &heard), &residuals);
-    let smooth = smooth(form, records, &heard, &residuals);
+    let straight = drawn(form, records, straight, &residuals);
+    let smooth = unfelt(form, records, smooth, &residuals);
     let plain = straight.into_iter().zip(smooth).map(|(a, b)| a.or(b));
-    let both = records.iter().zip(&residuals).zip(loud(COUNTS)).zip(plain);
+    let both = records.iter().zip(&residuals).zip(loud).zip(plain);
     both.map(|(((record, residual), noise), plain)| {
         if let Some(plain) = plain {
             return plain;

@@ -117,8 +117,7 @@ impl Investigation {
 
     /// True where the baseline leaves noise alone.
     pub(super) fn is_plain(&self) -> bool {
-        let Found { best, .. } = &self.found;
-        best.effects.is_empty() && !leaves_structure(&self.bench.train, best)
+        self.found.names_none() && !leaves_structure(&self.bench.train, &self.found.best)
     }
 
     /// χ² per degree of freedom of what was found, at least one.

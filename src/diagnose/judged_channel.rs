@@ -66,25 +66,17 @@ fn is_deep(records: &[Record]) -> bool {
     records.iter().any(|r| compliance_ratio(r) > DEEP_SLIP)
 }
 
-/// The other form of records whose channels' noise is alike, where it is one that their joint has.
-pub(super) fn other_form(records: &[Record], form: Form) -> Option<Form> {
-    let by = quieter_by(records, form);
-    let alike = by.max(by.recip()) < ALIKE;
-    let other = match form {
-        Form::Play => Form::Stop,
-        Form::Stop => Form::Play,
-    };
-    let has = other == Form::Stop || !is_deep(records) && full_slip(records).is_none();
-    (alike && has).then_some(other)
-}
-
-/// Noise of the judged channel over that of the drive, as shares of what both do.
-pub(super) fn quieter_by(records: &[Record], form: Form) -> f64 {
+/// The other form of records whose channels' noise is alike, where it is one that their joint has; and the noise of the
+/// channel that is judged in the first over that of the one that drives, as shares of what both do.
+pub(super) fn other_form(records: &[Record], form: Form) -> Option<(Form, f64)> {
     let (force, displacement) = noise(records);
-    match form {
-        Form::Play => displacement / force,
-        Form::Stop => force / displacement,
-    }
+    let (other, by) = match form {
+        Form::Play => (Form::Stop, displacement / force),
+        Form::Stop => (Form::Play, force / displacement),
+    };
+    let alike = by.max(by.recip()) < ALIKE;
+    let has = || other == Form::Stop || !is_deep(records) && full_slip(records).is_none();
+    (alike && has()).then_some((other, by))
 }
 
 /// Ratio of the channels' fast noise up to which it does not tell which of them drives: of slow noise, which only

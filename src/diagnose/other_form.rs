@@ -1,13 +1,12 @@
 //! Records of which neither channel is plainly the quieter, seen in the other form as well.
 
-use super::growing::leaves_structure;
 use super::investigation::Investigation;
-use super::judged_channel::{other_form, quieter_by};
+use super::judged_channel::other_form;
 use super::noise_alone::beyond_noise;
 use super::prepare::Bench;
 use super::search::Found;
 use super::sober;
-use super::trials::{alarm, dispersion, penalty};
+use super::trials::alarm;
 use super::unseen_events::investigated;
 use super::without_drive_noise;
 use crate::identify::Form;
@@ -51,16 +50,15 @@ pub(super) fn seen_from_both(
     progress: &mut impl FnMut(&str),
 ) -> Seen {
     let Investigation { bench, found } = &seen.investigation;
-    let problem = &bench.train;
-    let taken = found.baseline.misfit - found.best.misfit;
-    let evidence = taken / dispersion(problem, &found.best) - penalty(problem, found.best.free());
-    let wanted = alarm(problem);
-    let Some(form) = other_form(records, seen.form) else {
+    let (evidence, wanted) = (found.brings(&bench.train), alarm(&bench.train));
+    if found.names_none() || evidence >= PLAIN * wanted {
+        return seen;
+    }
+    let Some((form, quieter_by)) = other_form(records, seen.form) else {
         return seen;
     };
-    let there = evidence / quieter_by(records, seen.form).powi(2);
-    let asked = there > wanted && evidence < PLAIN * wanted;
-    if found.best.effects.is_empty() || !asked || kept(records, bench, found, timed).is_plain() {
+    let shows = evidence / quieter_by.powi(2) > wanted;
+    if !shows || kept(records, bench, found, timed).names_none() {
         return seen;
     }
     progress("once more: neither channel is the quieter one, and the other may drive");
@@ -81,10 +79,9 @@ fn nothing_at_work(
     progress: &mut impl FnMut(&str),
 ) -> Option<Seen> {
     let calm = without_drive_noise(form, records);
-    let Investigation { bench, found } = investigated((form, &calm), timed, progress);
-    let found = kept(records, &bench, &found, timed);
-    let nothing = found.is_plain() && !leaves_structure(&bench.train, &found.best);
-    nothing.then(|| Seen::once(form, calm, Investigation { bench, found }))
+    let mut other = investigated((form, &calm), timed, progress);
+    other.found = kept(records, &other.bench, &other.found, timed);
+    other.is_plain().then(|| Seen::once(form, calm, other))
 }
 
 fn names(found: &Found) -> Vec<String> {
@@ -136,14 +133,15 @@ mod tests {
             assert!(nothing_at_work(&hardened, form, true, &mut |_| {}).is_none());
         }
         let clean = nothing_at_work(&[swung(4, 0.0)], Form::Stop, true, &mut |_| {});
-        assert!(clean.is_some_and(|seen| seen.investigation.found.is_plain()));
+        assert!(clean.is_some_and(|seen| seen.investigation.is_plain()));
     }
 
     /// A channel that is plainly the quieter one drives, whatever the other form says.
     #[test]
     fn a_quiet_drive_is_asked_no_second_time() {
         let record = swung(4, 0.0);
-        let asked = |record: &Record| other_form(std::slice::from_ref(record), Form::Play);
+        let other = |record: &Record| other_form(std::slice::from_ref(record), Form::Play);
+        let asked = |record: &Record| other(record).map(|(form, _)| form);
         assert_eq!(asked(&record), Some(Form::Stop));
         let smooth = (0..1200).map(|i| (0.05 * f64::from(i)).sin()).collect();
         let quiet = Record {

@@ -1,7 +1,6 @@
 //! Probabilities of the causes: what the evidence is worth where no law is quite true.
 
 use super::search::Found;
-use super::trials::{dispersion, penalty};
 use crate::identify::Problem;
 use crate::joint::effect::Acting;
 
@@ -54,16 +53,14 @@ struct Named<'a> {
 
 impl<'a> Named<'a> {
     fn of(problem: &Problem, found: &'a Found) -> Named<'a> {
-        let Found { best, baseline, .. } = found;
-        let fall = (baseline.misfit - best.misfit) / dispersion(problem, best);
-        let effects = best.effects.iter().zip(&found.rivals);
+        let effects = found.best.effects.iter().zip(&found.rivals);
         let of_place = |(acting, rivals): (&'a Acting, &'a Vec<String>)| {
             let rivals = rivals.iter().map(String::as_str).collect();
             (acting.effect.name(), rivals)
         };
         Named {
             places: effects.map(of_place).collect(),
-            evidence: fall - penalty(problem, best.free()),
+            evidence: found.brings(problem),
         }
     }
 

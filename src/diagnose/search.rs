@@ -7,7 +7,7 @@ use super::growing::{grown, least, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
-use super::trials::{Effort, Trial, dispersion};
+use super::trials::{Effort, Trial, dispersion, penalty};
 use crate::identify::{Fit, Problem, refit, smoothed};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
@@ -52,8 +52,14 @@ impl Found {
     }
 
     /// True where no cause is named.
-    pub fn is_plain(&self) -> bool {
+    pub fn names_none(&self) -> bool {
         self.best.effects.is_empty()
+    }
+
+    /// Evidence for the named causes together: penalised fall of the misfit over the baseline's.
+    pub(super) fn brings(&self, problem: &Problem) -> f64 {
+        let fall = (self.baseline.misfit - self.best.misfit) / dispersion(problem, &self.best);
+        fall - penalty(problem, self.best.free())
     }
 
     /// Without the named causes at these places; the others are fitted anew.

@@ -4,30 +4,34 @@ use crate::identify::Form;
 use crate::record::Record;
 use crate::record::calm::{fastest_part, smoothed};
 
-/// Those of the records with noise in the drive of which that is smooth throughout, smoothed, where the joint did not feel
-/// the noise. `residuals` is what the baseline leaves.
+/// Those of the records with noise in the drive of which that is smooth throughout, smoothed.
 ///
 /// A dashpot of the coefficient c answers noise e in every sample of the displacement with `c (eᵢ − eᵢ₋₁)/Δt`: of 450
 /// samples a cycle that is seventy times its share of the displacement. What is beside it in the records is then
 /// fitted with less of it than is at work, and a delay does better.
-pub(super) fn smooth(
-    form: Form,
-    records: &[Record],
-    noise: &[Option<f64>],
-    residuals: &[Vec<f64>],
-) -> Vec<Option<Record>> {
-    let smooth = |((record, noise), residual): ((&Record, &Option<f64>), &Vec<f64>)| {
-        let (drive, judged) = form.channels(record);
-        let calm = smoothed(drive, (*noise)?)?;
-        if felt(drive, judged, residual) {
-            return None;
-        }
+pub(super) fn smooth(form: Form, records: &[Record], noise: &[Option<f64>]) -> Vec<Option<Record>> {
+    let smooth = |(record, noise): (&Record, &Option<f64>)| {
+        let calm = smoothed(form.channels(record).0, (*noise)?)?;
         let mut record = record.clone();
         *form.channels_mut(&mut record).0 = calm;
         Some(record)
     };
-    let both = records.iter().zip(noise).zip(residuals);
-    both.map(smooth).collect()
+    records.iter().zip(noise).map(smooth).collect()
+}
+
+/// Those of which the joint did not feel the noise, by what the baseline leaves of the records as they were.
+pub(super) fn unfelt(
+    form: Form,
+    records: &[Record],
+    smooth: Vec<Option<Record>>,
+    residuals: &[Vec<f64>],
+) -> Vec<Option<Record>> {
+    let both = records.iter().zip(residuals).zip(smooth);
+    both.map(|((record, residual), smooth)| {
+        let (drive, judged) = form.channels(record);
+        smooth.filter(|_| !felt(drive, judged, residual))
+    })
+    .collect()
 }
 
 /// True where the judged channel followed the fastest part of a drive: by more than half of what a model makes of that,
@@ -86,7 +90,10 @@ mod tests {
             let model: Vec<f64> = record.displacement.iter().map(|u| 30.0 * u).collect();
             let left = record.force.iter().zip(model).map(|(f, m)| f - m);
             let left = vec![left.collect()];
-            let found = smooth(Form::Stop, &[record], &[Some(1.5e-3)], &left);
+            let records = [record];
+            let smooth = smooth(Form::Stop, &records, &[Some(1.5e-3)]);
+            assert!(smooth[0].is_some());
+            let found = unfelt(Form::Stop, &records, smooth, &left);
             assert_eq!(found[0].is_none(), is_felt);
         }
     }
