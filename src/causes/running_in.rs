@@ -47,6 +47,9 @@ fn left((dissipation, path): (f64, f64), values: &[f64]) -> f64 {
 impl RunningIn {
     /// Compliance in the load path beyond the least it will have \[m/N\].
     fn compliance(values: &[f64], work: &[f64]) -> f64 {
+        if values[4] == 0.0 {
+            return 0.0;
+        }
         let left = left((work[0], work[1]), values);
         match values[4] >= 0.0 {
             true => values[4] * left,
@@ -88,6 +91,9 @@ impl Effect for RunningIn {
         follow_path(now, &mut memory[3..5]);
     }
     fn slip_limit(&self, values: &[f64], last: &Situation, memory: &[f64]) -> SlipLimit {
+        if values[0] == 0.0 {
+            return SlipLimit::UNCHANGED;
+        }
         let limit = 1.0 - values[0] * left((last.dissipation, memory[3]), values);
         SlipLimit::either_way(limit)
     }

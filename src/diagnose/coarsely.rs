@@ -1,17 +1,32 @@
 //! Causes of long records tried by few of their samples first: the others decide between those that come near.
 
 use super::places::scatter;
-use super::refinements::refined;
-use super::trials::{ALARM, Effort, FIRST, Trial, UNREFINED, led, of_all_samples};
+use super::refinements::refined_nearby;
+use super::trials::{ALARM, Effort, Trial, led, of_all_samples};
 use crate::causes::{Cause, Scale};
 use crate::identify::{Fit, Problem, refit, refit_below, suited};
 
 /// Independent samples that a first look is content with. What a cause has to bring grows with a record, a hundredth
 /// of the noise's variance per sample: of so many that is 5½ standard deviations of what is seen.
-const ENOUGH: usize = 3000;
+const MOST: f64 = 3000.0;
+
+/// Noise variances of the explainable misfit that a first look is content with where there is more of that: causes that bring a tenth
+/// of it are then as plain.
+const LEADER: f64 = 300.0;
+
+/// Fewest independent samples of a first look.
+const FEWEST: f64 = 1000.0;
 
 /// Share of what a cause takes away by which its values, told by few samples, may leave more than they will.
 const ASTRAY: f64 = 0.03;
+
+/// Share of the leader's fall by which a cause may stay behind that is fitted to all samples: few have shown what its
+/// refinements bring.
+const BEHIND: f64 = 0.05;
+
+/// Share of a misfit that a set may leave more of few samples than of all: turning points stay all, and are counted for as
+/// much as the others; limits that follow what the joint does follow longer steps.
+const COARSE: f64 = 0.15;
 
 /// Standard deviations of what few samples say of a fall by which less than is wanted may be enough.
 const SCATTER: f64 = 3.0;
@@ -46,20 +61,24 @@ pub fn trials_of(
 struct Coarsely {
     problem: Problem,
     current: Fit,
-    /// Samples of which one was left.
+    /// Independent samples of which one was left.
     every: f64,
 }
 
 impl Coarsely {
     /// `None` of records that are short, and of a set that does not suit few samples as well as all.
     fn of(problem: &Problem, current: &Fit) -> Option<Coarsely> {
-        let few = problem.coarser(ENOUGH)?;
+        let explainable = (current.misfit - problem.rows() as f64).max(0.0);
+        let enough = LEADER / (explainable / problem.independent_rows());
+        let enough = enough.clamp(FEWEST, MOST);
+        let few = problem.coarser((enough as usize, MOST as usize))?;
         let own = refit(&few, current, current.effects.clone());
-        let (rows, all) = (few.rows() as f64, problem.rows() as f64);
-        let of_all = current.misfit / all;
-        let suits = own.misfit < (1.0 + ASTRAY) * of_all * rows + of_all * scatter(rows);
+        let every = problem.independent_rows() / few.independent_rows();
+        let rows = few.rows() as f64;
+        let of_all = rows + (current.misfit - problem.rows() as f64) / every;
+        let suits = own.misfit < (1.0 + COARSE) * of_all + scatter(rows) * of_all / rows;
         suits.then_some(Coarsely {
-            every: all / rows,
+            every,
             current: own,
             problem: few,
         })
@@ -82,11 +101,17 @@ impl Coarsely {
     ) -> Vec<Trial> {
         let asked = (effort, self.wanted(current, wanted));
         let few = of_all_samples(usable, &self.problem, scale, &self.current, asked);
-        let leading: Vec<&Trial> = few.iter().take(FIRST).collect();
-        let others = few.iter().skip(FIRST).collect();
+        let leading: Vec<&Trial> = few.iter().take(1).collect();
+        let others = few.iter().skip(1).collect();
         let onward = |few: &Trial, bound: f64| onward((problem, scale), current, few, bound);
         let asked = (effort, wanted);
-        led((problem, scale), current, asked, (leading, others), onward)
+        led(
+            (problem, scale),
+            current,
+            asked,
+            (leading, others),
+            (BEHIND, onward),
+        )
     }
 }
 
@@ -96,7 +121,6 @@ fn onward((problem, scale): (&Problem, &Scale), current: &Fit, few: &Trial, boun
         None => current.clone(),
         Some(_) => {
             let begun = suited(problem, &few.fit, few.fit.effects.clone());
-            let bound = bound + UNREFINED * (current.misfit - bound).max(0.0);
             let astray = ASTRAY * (current.misfit - begun.misfit).max(0.0) + ALARM;
             match begun.misfit - astray < bound {
                 true => {
@@ -104,7 +128,7 @@ fn onward((problem, scale): (&Problem, &Scale), current: &Fit, few: &Trial, boun
                     let start = Fit { misfit, ..begun };
                     let fit = refit_below(problem, &start, start.effects.clone(), bound);
                     match fit.misfit < bound {
-                        true => refined((problem, scale), few.cause, current.misfit, fit),
+                        true => refined_nearby((problem, scale), few.cause, fit),
                         false => fit,
                     }
                 }
@@ -174,13 +198,30 @@ mod tests {
         assert!(Coarsely::of(&short.train, &baseline(&short.train)).is_none());
     }
 
+    /// Of slow noise few samples say much: the fewer are asked the more there is to explain.
+    #[test]
+    fn a_set_that_leaves_noise_is_asked_by_more() {
+        let mut bench = creeping(14_000);
+        let record = &mut bench.train.records[0];
+        // White noise less half of that before has 1.25 times its variance.
+        record.autoregression = 0.5;
+        record.weight.iter_mut().for_each(|w| *w /= 1.25_f64.sqrt());
+        let first = baseline(&bench.train);
+        let Bench { train, scale, .. } = &bench;
+        let only = |cause: &dyn Cause| cause.name() == "creep";
+        let asked = (Effort::Full, f64::INFINITY);
+        let left = trials_of(only, train, scale, &first, asked).remove(0).fit;
+        let rows = |fit: &Fit| Coarsely::of(&bench.train, fit).unwrap().problem.rows();
+        assert!(rows(&left) > rows(&first) + 500);
+    }
+
     /// A set that leaves more of few samples than of all has to be judged by all.
     #[test]
     fn few_samples_that_a_set_does_not_suit_are_not_asked() {
         let bench = creeping(16_000);
         let first = baseline(&bench.train);
         let better = Fit {
-            misfit: 0.9 * first.misfit,
+            misfit: 0.8 * first.misfit,
             ..first.clone()
         };
         assert!(Coarsely::of(&bench.train, &first).is_some());

@@ -10,6 +10,7 @@ use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion};
 use crate::identify::{Fit, Problem};
+use rayon::prelude::*;
 
 /// Share of the misfit beyond noise that another set must explain of what a set leaves.
 pub(super) const FURTHER_SHARE: f64 = 0.10;
@@ -187,11 +188,14 @@ impl Grow<'_> {
         let beyond = best.misfit - self.bench.train.rows() as f64;
         // A set that takes no more is not worth the settling.
         let enough = (best.misfit - FURTHER_SHARE * beyond).min(self.wanted);
-        let pairs = beginnings.into_iter().take(BEGINNINGS).filter_map(|one| {
+        beginnings.truncate(BEGINNINGS);
+        let pair = |one: &Trial| {
             let trials = self.beside(&one.fit, (Effort::Quick, best.misfit.min(self.wanted)));
             self.next(&one.fit, &trials, enough)
-        });
+        };
+        let pairs: Vec<Fit> = beginnings.into_par_iter().filter_map(pair).collect();
         pairs
+            .into_iter()
             .map(|pair| (Prospect::of(self.bench, best, &pair).total(), pair))
             .filter(|(gain, _)| *gain > least)
             .max_by(|(a, _), (b, _)| a.total_cmp(b))

@@ -8,7 +8,7 @@ use super::search::{Found, alone};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 
 use crate::causes::Cause;
-use crate::identify::{Form, refit};
+use crate::identify::{Form, refit_below};
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -92,12 +92,12 @@ impl Investigation {
         let mut on = train.clone();
         on.wears_on = true;
         let margin = ALARM * dispersion(train, best);
-        if wears && refit(&on, best, best.effects.clone()).misfit < best.misfit - margin {
+        let wanted = best.misfit - margin;
+        if wears && refit_below(&on, best, best.effects.clone(), wanted).misfit < wanted {
             return true;
         }
         let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
         let Found { baseline, .. } = &self.found;
-        let wanted = best.misfit - margin;
         let does_more_than_all = |on: &Trial| on.fit.misfit < wanted;
         let beyond = baseline.misfit - train.rows() as f64;
         let least = margin.max(FURTHER_SHARE * beyond);
@@ -112,7 +112,8 @@ impl Investigation {
             on.fit.misfit < more.min(nearly)
         };
         let left = wears || structure;
-        let tried = (Effort::Full, if left { f64::INFINITY } else { wanted });
+        let enough = if left { nearly.max(wanted) } else { wanted };
+        let tried = (Effort::Full, enough);
         let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
         let mut trials = trials.iter();
         trials.any(|on| does_more_than_all(on) || left && does_more_than_anew(on))
@@ -125,6 +126,7 @@ mod tests {
     use crate::causes::find;
     use crate::diagnose::prepare::{Bench, prepare};
     use crate::identify::beginning::Beginning;
+    use crate::identify::refit;
     use crate::identify::{Fit, Problem, baseline};
     use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;

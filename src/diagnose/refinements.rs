@@ -16,21 +16,34 @@ pub(super) fn refined(
     without: f64,
     fit: Fit,
 ) -> Fit {
-    let place = fit
-        .effects
-        .iter()
-        .position(|a| a.effect.name() == cause.name());
-    let Some(place) = place else {
+    let fit = refined_nearby((problem, scale), cause, fit);
+    let Some(place) = place(cause, &fit) else {
         return fit;
     };
-    let values = cause.refined(&fit.effects[place].values, scale);
-    let nearby = fit.misfit;
-    let fit = better(problem, fit, (place, values), nearby);
     match cause.begun_anew(&fit.effects[place].values, scale) {
         // Far from what was fitted, what it begins with is worse.
         Some(values) => better(problem, fit, (place, values), without),
         None => fit,
     }
+}
+
+/// The same by those refinements alone that are fitted from where the fit is.
+pub(super) fn refined_nearby(
+    (problem, scale): (&Problem, &Scale),
+    cause: &dyn Cause,
+    fit: Fit,
+) -> Fit {
+    let Some(place) = place(cause, &fit) else {
+        return fit;
+    };
+    let values = cause.refined(&fit.effects[place].values, scale);
+    let nearby = fit.misfit;
+    better(problem, fit, (place, values), nearby)
+}
+
+fn place(cause: &dyn Cause, fit: &Fit) -> Option<usize> {
+    let mut effects = fit.effects.iter();
+    effects.position(|a| a.effect.name() == cause.name())
 }
 
 /// The refit from other values of one of its effects, where it brings more than they cost; they begin smaller where

@@ -202,7 +202,7 @@ pub(super) fn of_all_samples(
         current,
         (effort, wanted),
         (leading, others),
-        try_one,
+        (BEHIND, try_one),
     )
 }
 
@@ -212,25 +212,30 @@ pub(super) fn led<T: Sync>(
     current: &Fit,
     (effort, wanted): (Effort, f64),
     (leading, others): (Vec<&T>, Vec<&T>),
-    try_one: impl Fn(&T, f64) -> Trial + Sync,
+    (behind, try_one): (f64, impl Fn(&T, f64) -> Trial + Sync),
 ) -> Vec<Trial> {
     let leading = leading.into_par_iter();
     let mut trials: Vec<Trial> = leading.map(|one| try_one(one, wanted)).collect();
     let lowest = trials
         .iter()
         .fold(current.misfit, |least, t| least.min(t.fit.misfit));
-    let bound = wanted.min(lowest + BEHIND * (current.misfit - lowest) + ALARM);
+    let bound = wanted.min(lowest + behind * (current.misfit - lowest) + ALARM);
     trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
     if effort == Effort::Full {
-        trials = settled((problem, scale), current, trials);
+        trials = settled((problem, scale), current, trials, wanted);
     }
     trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     trials
 }
 
-/// Those of the trials that come near the best, refitted once more from where they ended: valleys are long, and rivals
-/// are told apart by little.
-fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Trial>) -> Vec<Trial> {
+/// Those of the trials that come near the best and what is `wanted`, refitted once more from where they ended: valleys are
+/// long, and rivals are told apart by little.
+fn settled(
+    (problem, scale): (&Problem, &Scale),
+    current: &Fit,
+    trials: Vec<Trial>,
+    wanted: f64,
+) -> Vec<Trial> {
     let lowest = trials
         .iter()
         .min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
@@ -238,7 +243,7 @@ fn settled((problem, scale): (&Problem, &Scale), current: &Fit, trials: Vec<Tria
         return trials;
     };
     let margin = NEAR * (current.misfit - lowest.misfit) + ALARM * dispersion(problem, lowest);
-    let within = lowest.misfit + margin;
+    let within = lowest.misfit.min(wanted) + margin;
     let once_more = |trial: Trial| match trial.own().is_some() && trial.fit.misfit < within {
         true => {
             let fit = refit(problem, &trial.fit, trial.fit.effects.clone());

@@ -25,7 +25,7 @@ pub(super) fn before_all(problem: &Problem, others: Vec<Vec<Beginning>>) -> Vec<
     if !(0..problem.records.len()).all(|k| at_zero(problem.channels(k).0)) {
         return others;
     }
-    let few = problem.coarser(ENOUGH);
+    let few = problem.coarser((ENOUGH, ENOUGH));
     let few = few.as_ref().unwrap_or(problem);
     let left = |beginnings: &[Beginning]| least_misfit(&begun(few, beginnings));
     let loads = loads(few);

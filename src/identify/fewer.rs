@@ -5,6 +5,7 @@ use super::prepared::Prepared;
 use super::problem::Problem;
 use crate::record::cycles::cycles;
 use crate::record::mains::NOMINAL;
+use crate::record::noise::independence;
 
 /// Fewest samples per cycle that thinning leaves.
 const PER_CYCLE: usize = 40;
@@ -16,6 +17,9 @@ const APART: f64 = 0.05;
 /// Counts of samples tried beyond the one asked for.
 const TRIED: usize = 4;
 
+/// Part of the independent samples that is as good as all of them.
+const AS_MUCH: f64 = 0.9;
+
 /// True where a hum of the mains is seen in both its parts by every `every`-th of samples `Δt` apart, if it is by all.
 fn shows_mains(every: usize, sample: f64) -> bool {
     let shows = |f: f64, every: usize| {
@@ -26,17 +30,18 @@ fn shows_mains(every: usize, sample: f64) -> bool {
 }
 
 impl Problem {
-    /// The records with every few samples only, so that about `enough` independent ones are left, each weighing what
-    /// it does here; `None` where no record has that many to spare.
+    /// The records with every few samples only, so that about `enough` independent ones are left and no fewer than `samples`
+    /// of any, each weighing what it does here; `None` where no record has that many to spare.
     ///
-    /// Peaks between samples stay where all samples have shown them, and so do turning points. What is left of noise of
-    /// correlation `a` counts as white, `1/σ` of its variance.
-    pub fn coarser(&self, enough: usize) -> Option<Problem> {
+    /// Peaks between samples stay where all samples have shown them, and so do turning points. Of noise whose neighbours
+    /// correlate by `a` every `m`-th samples do by `aᵐ`: of slow noise few samples say as much as all.
+    pub fn coarser(&self, (enough, samples): (usize, usize)) -> Option<Problem> {
         let form = self.operators.form;
-        let wanted = (self.independent_rows() / enough as f64) as usize;
+        let wanted = (enough as f64 / self.independent_rows()).min(AS_MUCH);
         let every = |r: &Prepared| {
-            let most = wanted.min(r.sparsest(form)).max(1);
-            let seen = |every: &usize| shows_mains(*every, r.mean_step());
+            let stays = |every: usize| share(r.autoregression, every) >= wanted;
+            let seen = |every: &usize| stays(*every) && shows_mains(*every, r.mean_step());
+            let most = r.sparsest(form).min(self.rows() / samples);
             (1..=most).rev().find(seen).unwrap_or(1)
         };
         let every: Vec<usize> = self.records.iter().map(every).collect();
@@ -45,15 +50,27 @@ impl Problem {
         }
         let mut coarse = self.clone();
         for (record, every) in coarse.records.iter_mut().zip(every) {
-            let (length, white) = (record.time.len(), 1.0 - record.autoregression.powi(2));
+            let length = record.time.len();
             record.pick(&record.few(form, (0, every, length)));
-            if every > 1 {
-                record.weight.iter_mut().for_each(|w| *w *= white.sqrt());
-                record.autoregression = 0.0;
-            }
+            // weight = 1/innovation, innovation² = σ² (1 − a²)
+            let innovation = |a: f64| (1.0 - a * a).sqrt();
+            let before = record.autoregression;
+            record.autoregression = apart(before, every);
+            let gains = innovation(before) / innovation(record.autoregression);
+            record.weight.iter_mut().for_each(|w| *w *= gains);
         }
         Some(coarse)
     }
+}
+
+/// Correlation of samples of which every `every`-th stays, by that of neighbours.
+fn apart(autoregression: f64, every: usize) -> f64 {
+    (0..every).fold(1.0, |product, _| product * autoregression)
+}
+
+/// Part of the independent samples that every `every`-th sample keeps.
+fn share(autoregression: f64, every: usize) -> f64 {
+    independence(apart(autoregression, every)) / (every as f64 * independence(autoregression))
 }
 
 impl Prepared {
@@ -220,7 +237,7 @@ mod tests {
         record.displacement = exact.iter().map(|u| u + 1e-10 * noise()).collect();
         problem = Problem::new(Form::Play, &[record]);
         problem.records[0].weight.fill(1e10);
-        let few = problem.coarser(1000).unwrap();
+        let few = problem.coarser((1000, 1000)).unwrap();
         let per_row = |p: &Problem| p.misfit(&p.predict(&joint(p), &[])).0 / p.rows() as f64;
         assert!((1000..1060).contains(&few.rows()), "{}", few.rows());
         // A thousand squares scatter by 4 % of their mean, or less.
@@ -230,20 +247,23 @@ mod tests {
             few.records[0].between.peaks.len(),
             problem.records[0].between.peaks.len()
         );
-        assert_eq!(problem.coarser(2001), None);
+        assert_eq!(problem.coarser((2001, 2001)), None);
         // Of a cycle of 314 samples no more than seven may go for one that stays.
-        assert!(problem.coarser(10).unwrap().rows() > 4000 / 8);
-        // Slow noise says less by more samples.
-        problem.records[0].autoregression = 0.9;
-        assert_eq!(problem.coarser(1000), None);
+        assert!(problem.coarser((10, 10)).unwrap().rows() > 4000 / 8);
+        // Slow noise says less by more samples, and as much by few of them.
         problem.records[0].autoregression = 0.2;
-        let slow = problem.coarser(1000).unwrap();
-        assert!((1900..2100).contains(&slow.rows()));
-        // 1/innovation becomes 1/σ.
-        let weight = slow.records[0].weight[1];
-        assert!(
-            (weight / 1e10 - 0.96_f64.sqrt()).abs() < 1e-12
-                && slow.records[0].autoregression == 0.0
-        );
+        let slow = problem.coarser((1000, 500)).unwrap();
+        assert!((1300..1420).contains(&slow.rows()), "{}", slow.rows());
+        assert!((slow.records[0].autoregression - 0.2_f64.powi(3)).abs() < 1e-15);
+        // 1/innovation of neighbours becomes that of samples three apart.
+        let weight = slow.records[0].weight[1] / 1e10;
+        assert!((weight - (0.96_f64 / (1.0 - 0.2_f64.powi(6))).sqrt()).abs() < 1e-12);
+        problem.records[0].autoregression = 0.9;
+        let slow = problem.coarser((1000, 1000)).unwrap();
+        assert!(slow.independent_rows() > 0.9 * problem.independent_rows());
+        assert!(slow.rows() < 1400, "{}", slow.rows());
+        // Of noise whose neighbours say the opposite every other sample says much less.
+        problem.records[0].autoregression = -0.9;
+        assert_eq!(problem.coarser((10_000, 10_000)), None);
     }
 }
