@@ -3,6 +3,7 @@
 use super::nonnegative::Normal;
 use super::problem::{Prediction, Problem};
 use crate::joint::effect::Acting;
+use rayon::prelude::*;
 
 /// One derivative column: effect, parameter, step of the difference, values per record.
 pub(super) struct Slope {
@@ -21,35 +22,37 @@ pub(super) fn slopes(
     effects: &[Acting],
     at: &[Prediction],
 ) -> Vec<Slope> {
-    let mut slopes = Vec::new();
-    for (e, acting) in effects.iter().enumerate() {
-        for (p, parameter) in acting.effect.parameters().iter().enumerate() {
-            let value = acting.values[p];
-            if parameter.neutral == Some(value) {
-                continue;
-            }
-            let share = match acting.effect.jumps_with(p) {
-                true => WIDE,
-                false => 1e-4,
-            };
-            let mut unit = share * size_of(acting, p);
-            if value + unit > parameter.upper {
-                unit = -unit;
-            }
-            let mut shifted = effects.to_vec();
-            shifted[e].values[p] = value + unit;
-            let values = problem.gained((coefficients, at), &shifted, acting);
-            if values.iter().flatten().any(|v| *v != 0.0) {
-                slopes.push(Slope {
-                    effect: e,
-                    parameter: p,
-                    unit,
-                    values,
-                });
-            }
+    let all = effects.iter().enumerate();
+    let values: Vec<(usize, usize)> = all
+        .flat_map(|(e, acting)| (0..acting.values.len()).map(move |p| (e, p)))
+        .collect();
+    let slope = |(effect, parameter): (usize, usize)| {
+        let acting = &effects[effect];
+        let law = &acting.effect.parameters()[parameter];
+        let value = acting.values[parameter];
+        if law.neutral == Some(value) {
+            return None;
         }
-    }
-    slopes
+        let share = match acting.effect.jumps_with(parameter) {
+            true => WIDE,
+            false => 1e-4,
+        };
+        let mut unit = share * size_of(acting, parameter);
+        if value + unit > law.upper {
+            unit = -unit;
+        }
+        let mut shifted = effects.to_vec();
+        shifted[effect].values[parameter] = value + unit;
+        let values = problem.gained((coefficients, at), &shifted, acting);
+        let answers = values.iter().flatten().any(|v| *v != 0.0);
+        answers.then_some(Slope {
+            effect,
+            parameter,
+            unit,
+            values,
+        })
+    };
+    values.into_par_iter().filter_map(slope).collect()
 }
 
 /// The size of a value, of which a difference takes a share; of one that stands at zero the largest of the law's others in
