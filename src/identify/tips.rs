@@ -43,8 +43,9 @@ const FINE: f64 = 3e-3;
 const BEYOND: f64 = 2.0;
 
 /// What an input does between its samples, with the tips that a shape of all of them shows better than their own samples:
-/// not of ramps that were drawn, which have corners.
+/// not of ramps that were drawn, which have corners. A servo that was seen before reaches as far.
 pub(super) fn between(found: &Between, time: &[f64], input: &[f64]) -> Between {
+    let reaches = found.shaped.map_or(REACHES.to_vec(), |reach| vec![reach]);
     let found = found.anew(time, input);
     if found.straight || found.drawn || found.thinned {
         return found;
@@ -56,11 +57,13 @@ pub(super) fn between(found: &Between, time: &[f64], input: &[f64]) -> Between {
         .map(|(t, x)| [t / step, *x])
         .collect();
     let turns = turning_points(input, BAND);
-    let shapes = REACHES.map(|reach| Shape::shared(&samples, &turns, reach));
+    let shapes = reaches.into_iter();
+    let shapes = shapes.filter_map(|reach| Shape::shared(&samples, &turns, reach));
+    let shapes: Vec<Shape> = shapes.collect();
     let count = |shape: &Shape| shape.tips.len() as f64;
-    let most = shapes.iter().flatten().map(count).fold(0.0, f64::max);
-    let shapes = shapes.into_iter().flatten();
+    let most = shapes.iter().map(count).fold(0.0, f64::max);
     let shape = shapes
+        .into_iter()
         .filter(|shape| count(shape) >= MOST * most)
         .min_by(|a, b| a.error.total_cmp(&b.error));
     match shape {
@@ -219,7 +222,7 @@ impl Shape {
             }
         }
         let differs = root_mean_square(differs.into_iter()) > BEYOND * self.error;
-        put.shaped = differs;
+        put.shaped = differs.then_some(self.reach);
         match differs {
             true => put.in_order(),
             false => found,
@@ -287,7 +290,7 @@ pub(super) mod tests {
             let (input, tops) = drive(Some(lag));
             let single = Between::default().anew(&time(), &input);
             let found = between(&Between::default(), &time(), &input);
-            assert!(found.shaped && !single.shaped);
+            assert!(found.shaped.is_some() && single.shaped.is_none());
             // The first and the last have half a flank or none on one side, and where a level ends is no tip.
             let inner = |found: Between| -> Vec<Peak> {
                 let is_tip = |p: &Peak| (8..390).contains(&p.before) && p.value.abs() > 0.1;
@@ -320,7 +323,7 @@ pub(super) mod tests {
             let mut random = crate::record::noise::tests::drawn(seed);
             let noisy: Vec<f64> = sharp.iter().map(|x| x + noise * random()).collect();
             let found = between(&Between::default(), &time(), &noisy);
-            assert!(!found.shaped, "noise {noise}, seed {seed}");
+            assert!(found.shaped.is_none(), "noise {noise}, seed {seed}");
         }
     }
 
@@ -334,7 +337,7 @@ pub(super) mod tests {
         let sine: Vec<f64> = (0..400).map(|i| (0.265 * f64::from(i)).sin()).collect();
         let single = Between::default().anew(&time(), &sine);
         let found = between(&Between::default(), &time(), &sine);
-        assert!(!found.shaped);
+        assert!(found.shaped.is_none());
         let [off, before] = [found, single].map(|found| worst(&found.peaks, &[-1.0, 1.0]));
         assert!(off <= before && before < 2e-4, "{off} {before}");
         let made = Between {

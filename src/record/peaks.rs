@@ -28,8 +28,8 @@ pub struct Between {
     pub straight: bool,
     /// True where the input was drawn by its ramps, and has the corners where they meet.
     pub drawn: bool,
-    /// True where a shape that all tips share tells of them what their own samples do not.
-    pub shaped: bool,
+    /// Where a shape that all tips share tells of them what their own samples do not: steps from a tip to where it ends.
+    pub shaped: Option<f64>,
 }
 
 impl Between {
