@@ -89,7 +89,7 @@ pub enum Effort {
 const LEADING: usize = 4;
 
 /// Those that set the bound of a full one.
-pub(super) const FIRST: usize = 2;
+const FIRST: usize = 2;
 
 /// Shapes of a cause that are refitted in a full pass; of a mass that rings, whose wrong sizes ring otherwise, more
 /// beside up to one other cause.
