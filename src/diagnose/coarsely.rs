@@ -68,14 +68,14 @@ struct Coarsely {
 impl Coarsely {
     /// `None` of records that are short, and of a set that does not suit few samples as well as all.
     fn of(problem: &Problem, current: &Fit) -> Option<Coarsely> {
-        let explainable = (current.misfit - problem.rows() as f64).max(0.0);
-        let enough = LEADER / (explainable / problem.independent_rows());
+        let explainable = current.misfit - problem.rows() as f64;
+        let enough = LEADER * problem.independent_rows() / explainable.max(0.0);
         let enough = enough.clamp(FEWEST, MOST);
         let few = problem.coarser((enough as usize, MOST as usize))?;
         let own = refit(&few, current, current.effects.clone());
         let every = problem.independent_rows() / few.independent_rows();
         let rows = few.rows() as f64;
-        let of_all = rows + (current.misfit - problem.rows() as f64) / every;
+        let of_all = rows + explainable / every;
         let suits = own.misfit < (1.0 + COARSE) * of_all + scatter(rows) * of_all / rows;
         suits.then_some(Coarsely {
             every,

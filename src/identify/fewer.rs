@@ -38,10 +38,11 @@ impl Problem {
     pub fn coarser(&self, (enough, samples): (usize, usize)) -> Option<Problem> {
         let form = self.operators.form;
         let wanted = (enough as f64 / self.independent_rows()).min(AS_MUCH);
+        let spared = self.rows() / samples;
         let every = |r: &Prepared| {
             let stays = |every: usize| share(r.autoregression, every) >= wanted;
             let seen = |every: &usize| stays(*every) && shows_mains(*every, r.mean_step());
-            let most = r.sparsest(form).min(self.rows() / samples);
+            let most = r.sparsest(form).min(spared);
             (1..=most).rev().find(seen).unwrap_or(1)
         };
         let every: Vec<usize> = self.records.iter().map(every).collect();

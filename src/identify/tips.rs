@@ -57,9 +57,8 @@ pub(super) fn between(found: &Between, time: &[f64], input: &[f64]) -> Between {
         .map(|(t, x)| [t / step, *x])
         .collect();
     let turns = turning_points(input, BAND);
-    let shapes = reaches.into_iter();
-    let shapes = shapes.filter_map(|reach| Shape::shared(&samples, &turns, reach));
-    let shapes: Vec<Shape> = shapes.collect();
+    let shared = |reach: f64| Shape::shared(&samples, &turns, reach);
+    let shapes: Vec<Shape> = reaches.into_iter().filter_map(shared).collect();
     let count = |shape: &Shape| shape.tips.len() as f64;
     let most = shapes.iter().map(count).fold(0.0, f64::max);
     let shape = shapes
