@@ -3,7 +3,6 @@
 
 use iwan::diagnose::structure::{Structure, structure};
 use iwan::identify::{Form, Prediction, Problem};
-use iwan::joint::effect::Trajectory;
 use iwan::record::Record;
 use iwan::record::noise::Noise;
 use rand::{Rng, SeedableRng};
@@ -60,7 +59,7 @@ fn seen_beside(
     };
     let prediction = Prediction {
         judged: predicted,
-        truth: Trajectory::default(),
+        ..Prediction::default()
     };
     structure(
         &Problem::new(Form::Stop, &[record]),

@@ -136,13 +136,24 @@ pub fn suited(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> Fit {
         effects,
         ..fit.clone()
     };
-    let reached = Reached::at(problem, other.coefficients.clone(), other.acting()).suited(problem);
-    Fit {
-        coefficients: reached.coefficients,
-        misfit: reached.misfit,
-        offsets: reached.offsets,
-        ..other
-    }
+    let reached = Reached::at(problem, other.coefficients.clone(), other.acting());
+    reached.suited(problem).fit(other)
+}
+
+/// The same, where it leaves less than a misfit.
+pub(super) fn suited_below(
+    problem: &Problem,
+    fit: &Fit,
+    effects: Vec<Acting>,
+    misfit: f64,
+) -> Option<Fit> {
+    let other = Fit {
+        effects,
+        ..fit.clone()
+    };
+    let reached = Reached::at(problem, other.coefficients.clone(), other.acting());
+    let suited = reached.suited_below(problem, misfit)?;
+    Some(suited.fit(other))
 }
 
 /// The fit without one of its effects, the others as they are and the dictionary as it suits them.
@@ -314,11 +325,16 @@ fn descend(problem: &Problem, coefficients: Vec<f64>, effects: Vec<Acting>, step
             let values = moved(&now.effects, &slopes, &solution[first..]);
             solution.truncate(columns);
             let trial = Reached::at(problem, solution, values);
+            let once = round == 0 && steps.most == 1;
+            let least = if once {
+                trial.misfit
+            } else {
+                trial.misfit.min(now.misfit)
+            };
             let trial = match implicit && trial.misfit > now.misfit - FORETOLD * foretold {
-                true => trial.suited_if_better(problem),
+                true => trial.suited_below(problem, least).unwrap_or(trial),
                 false => trial,
             };
-            let once = round == 0 && steps.most == 1;
             if trial.misfit.is_finite() && (trial.misfit < now.misfit || once) {
                 let fall = now.misfit - trial.misfit;
                 let prospect = round < FIRST || trial.misfit - PROSPECT * fall < steps.bound;
@@ -374,17 +390,18 @@ pub(super) fn normal(
     normal
 }
 
-/// Dictionary coefficients that suit the effects as they are: the joint without an effect is not the
-/// joint beside it.
+/// Dictionary coefficients that suit the effects as they are, and what the linearised model foretells that they leave:
+/// the joint without an effect is not the joint beside it.
 pub(super) fn projected(
     problem: &Problem,
     coefficients: &[f64],
     effects: &[Acting],
     at: &[Prediction],
-) -> Vec<f64> {
+) -> (Vec<f64>, f64) {
     let columns = problem.operators.columns();
     let normal = normal(problem, coefficients, effects, at, &[]);
     let mut solution = normal.solve(&bounded(problem, &normal));
+    let foretold = normal.misfit(&solution);
     solution.truncate(columns);
-    solution
+    (solution, foretold)
 }

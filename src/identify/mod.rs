@@ -23,6 +23,7 @@ pub mod linearised;
 pub mod march;
 pub mod nonnegative;
 pub mod operators;
+mod passes;
 pub mod past;
 pub mod prepared;
 pub mod problem;

@@ -1,6 +1,6 @@
 //! Where a refit stands: a dictionary, effects, and what they leave.
 
-use super::fit::projected;
+use super::fit::{Fit, projected};
 use super::problem::{Prediction, Problem};
 use super::series;
 use crate::joint::effect::Acting;
@@ -48,7 +48,7 @@ impl Reached {
 
     /// The same effects with the dictionary that suits them.
     pub fn suited(&self, problem: &Problem) -> Reached {
-        let anew = projected(
+        let (anew, _) = projected(
             problem,
             &self.coefficients,
             &self.effects,
@@ -57,13 +57,26 @@ impl Reached {
         Reached::at(problem, anew, self.effects.clone())
     }
 
-    /// The same effects with the dictionary that suits them, where that leaves less.
-    pub fn suited_if_better(self, problem: &Problem) -> Reached {
-        let suited = self.suited(problem);
-        if suited.misfit < self.misfit {
-            suited
-        } else {
-            self
+    /// The same, where it leaves less than a misfit; not marched where its linearised model foretells that it does not.
+    pub fn suited_below(&self, problem: &Problem, misfit: f64) -> Option<Reached> {
+        let (anew, foretold) = projected(
+            problem,
+            &self.coefficients,
+            &self.effects,
+            &self.predictions,
+        );
+        let march = || Reached::at(problem, anew, self.effects.clone());
+        let suited = (foretold < misfit).then(march);
+        suited.filter(|suited| suited.misfit < misfit)
+    }
+
+    /// A fit like another one as this is.
+    pub fn fit(self, other: Fit) -> Fit {
+        Fit {
+            coefficients: self.coefficients,
+            misfit: self.misfit,
+            offsets: self.offsets,
+            ..other
         }
     }
 
@@ -73,8 +86,7 @@ impl Reached {
             if self.misfit <= before {
                 break;
             }
-            let suited = self.suited(problem);
-            if suited.misfit <= before {
+            if let Some(suited) = self.suited_below(problem, before) {
                 return suited;
             }
             let smaller = shrunk(&self.effects);
@@ -91,7 +103,7 @@ impl Reached {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::{Fit, Form, baseline, glanced, refit, refit_below};
+    use crate::identify::{Form, baseline, glanced, refit, refit_below};
     use crate::joint::effect::{Effect, Place, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -174,6 +186,8 @@ mod tests {
         let near = far.suited(&problem);
         // Of a joint under force limits that are given leave a linear problem: one step ends at its least.
         assert!(far.misfit > 10.0 * near.misfit);
+        let below = |share: f64| far.suited_below(&problem, share * near.misfit);
+        assert!(below(0.99).is_none() && below(1.01).is_some_and(|b| b.misfit == near.misfit));
         for share in [0.02, -0.1, 0.4] {
             let fit = refit(&problem, &start, uneven(share));
             let found = fit.effects[0].values[0];

@@ -76,7 +76,7 @@ pub(super) fn each_row(
     let mut row = vec![0.0; size + 1];
     let mut rows = Rows::default();
     let stand_off = problem.stand_off(k, at);
-    problem.pass(k, coefficients, effects, |i, march, step| {
+    problem.pass_again(k, (coefficients, effects, at), |i, march, step| {
         rows.next(march, step, &mut row[..columns]);
         let Some(i) = i else { return };
         row[columns + k] = 1.0;

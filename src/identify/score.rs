@@ -76,7 +76,8 @@ fn score_batch(problem: &Problem, current: &Current, batch: &[Acting]) -> Vec<Sc
             let mut row = vec![0.0; all + 1];
             let mut rows = Rows::default();
             let mut summed = Summed::new(all);
-            problem.pass(k, &fit.coefficients, acting, |i, march, step| {
+            let model = (&fit.coefficients[..], &acting[..], &at[k]);
+            problem.pass_again(k, model, |i, march, step| {
                 rows.next(march, step, &mut row[..columns]);
                 let Some(i) = i else { return };
                 row[columns + k] = 1.0;

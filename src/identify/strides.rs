@@ -1,7 +1,7 @@
 //! Search along a value that the answer follows in small jumps: between them there is no slope that
 //! would lead on.
 
-use super::fit::{Fit, suited};
+use super::fit::{Fit, suited_below};
 use super::problem::Problem;
 use super::series;
 use super::weighing::deviation;
@@ -31,19 +31,17 @@ pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
         for p in (0..law.parameters().len()).filter(|&p| law.jumps_with(p)) {
             if Some(e) == newest && (hidden || fit.misfit > half) {
                 let leaps = LEAPS.map(|factor| moved(problem, &fit, (e, p), factor));
-                let lower = |least: Fit, next: Fit| match next.misfit < least.misfit {
-                    true => next,
-                    false => least,
-                };
-                fit = leaps.into_iter().fold(fit, lower);
+                let lowest = leaps.into_iter().flatten();
+                fit = lowest
+                    .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+                    .unwrap_or(fit);
             }
             for factor in [1.0 + STRIDE, 1.0 / (1.0 + STRIDE)] {
                 let began = fit.misfit;
                 for _ in 0..MOST {
-                    let next = moved(problem, &fit, (e, p), factor);
-                    if next.misfit >= fit.misfit {
+                    let Some(next) = moved(problem, &fit, (e, p), factor) else {
                         break;
-                    }
+                    };
                     fit = next;
                 }
                 if fit.misfit < began {
@@ -55,11 +53,11 @@ pub(super) fn strided(problem: &Problem, mut fit: Fit, before: f64) -> Fit {
     fit
 }
 
-/// The fit with one value times a factor, inside its bounds.
-fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> Fit {
+/// The fit with one value times a factor, inside its bounds, where that leaves less.
+fn moved(problem: &Problem, fit: &Fit, (e, p): (usize, usize), factor: f64) -> Option<Fit> {
     let mut effects = fit.effects.clone();
     let parameter = &effects[e].effect.parameters()[p];
     let value = &mut effects[e].values[p];
     *value = (*value * factor).clamp(parameter.lower, parameter.upper);
-    suited(problem, fit, effects)
+    suited_below(problem, fit, effects, fit.misfit)
 }
