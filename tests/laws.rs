@@ -96,6 +96,7 @@ fn truth(outputs: &[Output]) -> Trajectory {
         time: outputs.iter().map(|o| o.time).collect(),
         force: outputs.iter().map(|o| o.force).collect(),
         displacement: outputs.iter().map(|o| o.displacement).collect(),
+        ..Trajectory::default()
     }
 }
 

@@ -118,6 +118,7 @@ mod tests {
             displacement: vec![3.0; time.len()],
             force: vec![],
             time,
+            ..Trajectory::default()
         };
         let added = AcCoupling.channel(&[0.5, 0.0, 0.0], Place::DisplacementChannel, &truth);
         for (added, t) in added.iter().zip(&truth.time) {
@@ -135,6 +136,7 @@ mod tests {
             displacement: vec![3.0; time.len()],
             force: vec![],
             time,
+            ..Trajectory::default()
         };
         let added = AcCoupling.channel(&[0.5, 1.0, 0.0], Place::DisplacementChannel, &truth);
         for (added, t) in added.iter().zip(&truth.time) {
@@ -154,6 +156,7 @@ mod tests {
             displacement: time.iter().map(|t| (rate * t).sin()).collect(),
             force: vec![],
             time,
+            ..Trajectory::default()
         };
         let added = AcCoupling.channel(&[0.2, 0.0, 0.0], Place::DisplacementChannel, &truth);
         let samples = truth.time.iter().zip(&truth.displacement).zip(&added);

@@ -88,6 +88,7 @@ mod tests {
             time: time.clone(),
             begins: 0.0,
             test: 0,
+            ..Trajectory::default()
         };
         let loaded = Trajectory {
             displacement: vec![0.0; 400],

@@ -241,6 +241,7 @@ mod tests {
             time: vec![2.0, 3.0, 5.0],
             force: vec![],
             displacement: vec![0.0; 3],
+            ..Trajectory::default()
         };
         assert_eq!(
             DisplacementDrift.channel(&of(&[0.5, 0.0, 0.0]), Place::DisplacementChannel, &truth),
@@ -263,6 +264,7 @@ mod tests {
                 time: vec![0.0, 2.0],
                 force: vec![],
                 displacement: vec![0.0; 2],
+                ..Trajectory::default()
             };
             let values = of(&[0.5, 0.0, 0.0, 0.25, -0.5]);
             DisplacementDrift.channel(&values, Place::DisplacementChannel, &truth)[1]

@@ -1,6 +1,7 @@
 //! `fixture_inertia`: mass between load cell and joint.
 
 use super::{Cause, Page, Scale};
+use crate::joint::course::Course;
 use crate::joint::effect::{Effect, Place, Trajectory};
 use crate::joint::elementary::{sin, square};
 use crate::joint::parameters::Parameter;
@@ -10,7 +11,8 @@ use crate::joint::passed::Passed;
 ///
 /// Where force drives, mass and joint are a system that rings, and the measured force drives it. A cell or a record
 /// too slow for that shows the inertia of the joint's forced motion alone: with a driven mass `F_meas = F + m_d Ü` is
-/// solved for the F that the joint bore in turns. Where displacement drives, Ü reaches over [`SLOW`] samples.
+/// solved for the F that the joint bore in turns. Where displacement drives, m is read from sample to sample where its rate
+/// jumps, and from no sample beyond; with m_d Ü reaches over [`SLOW`] samples, across all jumps.
 pub struct FixtureInertia;
 
 static PARAMETERS: [Parameter; 2] = [
@@ -57,9 +59,13 @@ const REACH: f64 = 0.125;
 /// its amplifier.
 const SLOW: f64 = 4.0;
 
+/// Samples between two jumps of the rate from which on there is a smooth motion between them.
+const SMOOTH: usize = 7;
+
 /// Ü \[m/s²\] by differences over at least so many samples to either side, and so far that a measured displacement's noise
-/// is small beside it, with the loss that they have at the motion's own frequency made good.
-fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
+/// is small beside it. None reaches across jumps of the rate at or before these samples; at those it is what the samples
+/// beside them say, the mean from sample to sample.
+fn acceleration(truth: &Trajectory, samples: f64, kinks: &[usize]) -> Vec<f64> {
     let (time, displacement) = (&truth.time, &truth.displacement);
     let count = time.len();
     let frequency = truth.frequency();
@@ -71,35 +77,73 @@ fn acceleration(truth: &Trajectory, samples: f64) -> Vec<f64> {
     let wanted = NOISY * square(frequency) * size.sqrt();
     // A second difference has six times the variance of its samples.
     let noisy = (6.0_f64.sqrt() * noise(displacement) / wanted).sqrt();
+    let mean = |sample: usize| {
+        let i = sample.clamp(1, count - 2);
+        let rate = |i: usize| (displacement[i] - displacement[i - 1]) / (time[i] - time[i - 1]);
+        2.0 * (rate(i + 1) - rate(i)) / (time[i + 1] - time[i - 1])
+    };
+    let kinks = || {
+        kinks
+            .iter()
+            .copied()
+            .filter(|kink| (1..count).contains(kink))
+    };
+    let mut accelerations = Vec::with_capacity(count);
+    for end in kinks().chain([count]) {
+        let stretch = accelerations.len()..end;
+        let motion = Course {
+            time: &time[stretch.clone()],
+            values: &displacement[stretch.clone()],
+            corners: &[],
+        };
+        match stretch.len() < SMOOTH.min(count) {
+            true => accelerations.extend(stretch.map(mean)),
+            false => accelerations.extend(smooth(motion, frequency, (samples, noisy))),
+        }
+    }
+    for kink in kinks() {
+        for sample in [kink - 1, kink] {
+            accelerations[sample] = mean(sample);
+        }
+    }
+    accelerations
+}
+
+/// The same of a smooth motion, by differences over so many samples and so much time at least, with the loss that they have
+/// at a frequency made good.
+fn smooth(
+    motion: Course<'_>,
+    frequency: f64,
+    (samples, noisy): (f64, f64),
+) -> impl Iterator<Item = f64> {
+    let (time, displacement) = (motion.time, motion.values);
+    let count = time.len();
     let noisy = noisy.min(REACH * (time[count - 1] - time[0]));
-    let course = truth.course();
     let mut places = [Passed::default(); 4];
-    (0..count)
-        .map(|sample| {
-            let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
-            let step = (time[after] - time[before]) / (after - before) as f64;
-            let reach = noisy.max(samples * step);
-            // Beyond what the noise of the sample itself, which the joint's force has too, takes part in.
-            let inner = if noisy > step { OWN * step } else { 0.0 };
-            let outer = (square(reach) + square(inner)).sqrt();
-            // Constant near either end.
-            let middle = time[sample]
-                .max(time[0] + outer)
-                .min(time[count - 1] - outer);
-            let [earlier, early, late, later] = &mut places;
-            let at = |way: f64, passed: &mut Passed| course.at(middle + way, passed);
-            let outside = at(-outer, earlier) + at(outer, later);
-            let inside = match middle == time[sample] && inner == 0.0 {
-                true => 2.0 * displacement[sample],
-                false => at(-inner, early) + at(inner, late),
-            };
-            let loss = |way: f64| {
-                let half = (0.5 * way * frequency).min(1.0);
-                if half > 0.0 { sin(half) / half } else { 1.0 }
-            };
-            (outside - inside) / (square(reach) * loss(outer + inner) * loss(outer - inner))
-        })
-        .collect()
+    (0..count).map(move |sample| {
+        let (before, after) = (sample.saturating_sub(1), (sample + 1).min(count - 1));
+        let step = (time[after] - time[before]) / (after - before) as f64;
+        let reach = noisy.max(samples * step);
+        // Beyond what the noise of the sample itself, which the joint's force has too, takes part in.
+        let inner = if noisy > step { OWN * step } else { 0.0 };
+        let outer = (square(reach) + square(inner)).sqrt();
+        // Constant near either end.
+        let middle = time[sample]
+            .max(time[0] + outer)
+            .min(time[count - 1] - outer);
+        let [earlier, early, late, later] = &mut places;
+        let at = |way: f64, passed: &mut Passed| motion.at(middle + way, passed);
+        let outside = at(-outer, earlier) + at(outer, later);
+        let inside = match middle == time[sample] && inner == 0.0 {
+            true => 2.0 * displacement[sample],
+            false => at(-inner, early) + at(inner, late),
+        };
+        let loss = |way: f64| {
+            let half = (0.5 * way * frequency).min(1.0);
+            if half > 0.0 { sin(half) / half } else { 1.0 }
+        };
+        (outside - inside) / (square(reach) * loss(outer + inner) * loss(outer - inner))
+    })
 }
 
 /// Differences that are taken of a channel to leave its noise alone.
@@ -159,7 +203,12 @@ impl Effect for FixtureInertia {
 fn inertia(masses: [(f64, f64); 2], truth: &Trajectory) -> Vec<f64> {
     let mut sum = vec![0.0; truth.time.len()];
     for (mass, samples) in masses.into_iter().filter(|(mass, _)| *mass != 0.0) {
-        let moved = acceleration(truth, samples).into_iter();
+        let kinks = if samples == 1.0 {
+            &truth.kinks[..]
+        } else {
+            &[]
+        };
+        let moved = acceleration(truth, samples, kinks).into_iter();
         sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
     }
     sum
@@ -207,11 +256,10 @@ mod tests {
     fn a_sine_is_accelerated_by_its_frequency_squared() {
         let time: Vec<f64> = (0..4000).map(|i| 1e-3 * f64::from(i)).collect();
         let truth = Trajectory {
-            begins: 0.0,
-            test: 0,
             displacement: time.iter().map(|t| 2e-6 * (20.0 * t).sin()).collect(),
             force: time.iter().map(|t| 50.0 * (20.0 * t).sin()).collect(),
             time,
+            ..Trajectory::default()
         };
         // From nothing to a tenth of the force, where the reach is a radian.
         for mass in [1.0, 300.0, 6250.0] {
@@ -244,9 +292,10 @@ mod tests {
             force: vec![0.0; 4000],
             ..Trajectory::default()
         };
-        let read = acceleration(&truth(&noise), 1.0);
+        let read = acceleration(&truth(&noise), 1.0, &[]);
         // By the same differences.
-        let wrongly = acceleration(&truth(&noise.iter().map(|n| -n).collect::<Vec<_>>()), 1.0);
+        let other: Vec<f64> = noise.iter().map(|n| -n).collect();
+        let wrongly = acceleration(&truth(&other), 1.0, &[]);
         let by_noise: Vec<f64> = read
             .iter()
             .zip(&wrongly)
@@ -268,14 +317,51 @@ mod tests {
         }
     }
 
+    /// A sine whose size is stepped up as it passes zero, a quarter of the way from one sample to the next, in noise.
+    #[test]
+    fn a_jump_of_the_rate_is_in_the_samples_beside_it_alone() {
+        let mut state = 20_261_129_u64;
+        let mut random = || {
+            state = state * 48_271 % 2_147_483_647;
+            state as f64 / 2_147_483_647.0 - 0.5
+        };
+        let (rate, step, tip) = (20.0, 1e-3, 2000.25);
+        let size = |i: f64| if i < tip { 2e-6 } else { 3e-6 };
+        let sine = |i: f64| size(i) * (rate * step * (i - tip)).sin();
+        let truth = Trajectory {
+            time: (0..4000).map(|i| step * f64::from(i)).collect(),
+            displacement: (0..4000)
+                .map(|i| sine(f64::from(i)) + 6e-9 * random())
+                .collect(),
+            force: vec![0.0; 4000],
+            kinks: vec![2001],
+            ..Trajectory::default()
+        };
+        // Of inertia as large as the noise leaves it.
+        let off = |kinks: &[usize]| {
+            let read = acceleration(&truth, 1.0, kinks);
+            let off =
+                |i: usize| (read[i] + rate * rate * sine(i as f64)).abs() / (rate * rate * 3e-6);
+            let near = (1950..2050).filter(|i| ![2000, 2001].contains(i));
+            let jumped = (read[2000] + read[2001]) * step / (rate * 1e-6);
+            (near.map(off).fold(0.0, f64::max), jumped)
+        };
+        let (smooth, jumped) = off(&truth.kinks);
+        assert!(smooth < 0.4, "{smooth}");
+        // Three standard deviations of the noise in four of its samples.
+        assert!((jumped - 1.0).abs() < 0.8, "{jumped}");
+        // Differences that reach over eight samples spread the jump over all of them.
+        let (across, _) = off(&[]);
+        assert!(across > 1.0, "{across}");
+    }
+
     #[test]
     fn rest_and_short_records_have_none() {
         let still = |count| Trajectory {
-            begins: 0.0,
-            test: 0,
             time: (0..count).map(|i| i as f64).collect(),
             force: vec![0.0; count],
             displacement: vec![5.0; count],
+            ..Trajectory::default()
         };
         for count in [0, 1, 2, 3, 50] {
             assert_eq!(

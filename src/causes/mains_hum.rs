@@ -181,6 +181,7 @@ mod tests {
             time: (0..=40).map(|i| -0.02 + 0.001 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 41],
+            ..Trajectory::default()
         };
         let added = MainsHum.channel(
             &[2.0, 0.5, 50.0, 0.0, 0.0, 0.0, 0.0],

@@ -205,6 +205,7 @@ mod tests {
             time: (0..101).map(|i| 5.0 + 0.1 * f64::from(i)).collect(),
             force: vec![],
             displacement: vec![0.0; 101],
+            ..Trajectory::default()
         };
         let added = OffsetStep.channel(&[2.0, 4.0, 16.0, 0.0], Place::DisplacementChannel, &truth);
         assert!((added[40] - 1.0).abs() < 1e-12);
@@ -274,6 +275,7 @@ mod tests {
             force: force.collect(),
             displacement: vec![0.0; 801],
             time,
+            ..Trajectory::default()
         };
         assert!(OffsetStep.double(&[1e-6, 0.2, 6.0, 0.0], &truth).is_some());
         assert!(OffsetStep.double(&[0.0, 0.2, 6.0, 1.0], &truth).is_some());

@@ -126,6 +126,7 @@ mod tests {
             displacement: time.iter().map(|t| (3.0 * t).sin()).collect(),
             force: vec![],
             time,
+            ..Trajectory::default()
         };
         for delay in [0.004, 0.01, 0.037, -0.004, -0.02] {
             let added = SensorDelay.channel(&[delay, 0.0, 0.0], Place::DisplacementChannel, &truth);
@@ -145,6 +146,7 @@ mod tests {
             time: vec![1.0, 2.0, 3.0],
             force: vec![],
             displacement: vec![0.5, 1.5, 3.5],
+            ..Trajectory::default()
         };
         assert_eq!(
             SensorDelay.channel(&[5.0, 0.0, 0.0], Place::DisplacementChannel, &truth),
@@ -180,6 +182,7 @@ mod tests {
             displacement: wave.clone(),
             force: wave,
             time,
+            ..Trajectory::default()
         };
         for (values, place) in [
             ([0.0, 0.05, 0.0], Place::DisplacementChannel),

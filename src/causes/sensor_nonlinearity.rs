@@ -184,6 +184,7 @@ mod tests {
             time: vec![0.0; 3],
             force: vec![],
             displacement: vec![-2.0, 0.0, 3.0],
+            ..Trajectory::default()
         };
         assert_eq!(
             SensorNonlinearity.channel(

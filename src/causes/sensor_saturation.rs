@@ -217,6 +217,7 @@ mod tests {
             time: vec![0.0; 5],
             force: vec![],
             displacement: vec![-3.0, -1.0, 0.5, 2.0, 4.0],
+            ..Trajectory::default()
         };
         let clip = SensorSaturation.channel(
             &[1e12, 2.0, 1.5, 2.0, 0.0, 0.0, 0.0, 2.0],

@@ -3,6 +3,7 @@
 
 use super::beginning::Beginning;
 use super::march::{Cells, March, Step, Wear};
+use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::{Prediction, Problem};
 use super::turns::{Resonance, Turns};
@@ -87,8 +88,12 @@ impl Problem {
             displacement: record.displacement.clone(),
             begins: self.records[..k].iter().map(Prepared::length).sum(),
             test: k,
+            kinks: Vec::new(),
         };
         let mut driven = true_input((form, record), model.1, &correcting, &mut truth);
+        if form == Form::Stop {
+            truth.kinks.clone_from(&driven.1.kinks);
+        }
         let mut turns = Turns::new(if in_turns.is_empty() { 1 } else { self.turns });
         let as_read = (!turns.end()).then(|| driven.clone());
         let worn = loop {
@@ -173,7 +178,6 @@ impl Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::Form;
     use crate::identify::rows::tests::Beside;
     use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;

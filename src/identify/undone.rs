@@ -63,8 +63,7 @@ pub(super) fn true_turns(form: Form, readings: &[f64], correcting: &[Acting]) ->
         time: vec![0.0; readings.len()],
         force: readings.to_vec(),
         displacement: readings.to_vec(),
-        begins: 0.0,
-        test: 0,
+        ..Trajectory::default()
     };
     let added = undone(form, &at_once, &mut truth, readings);
     readings.iter().zip(&added).map(|(r, a)| r - a).collect()

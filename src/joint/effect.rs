@@ -108,6 +108,9 @@ pub struct Trajectory {
     pub begins: f64,
     /// Place of the record among all, from 0.
     pub test: usize,
+    /// Samples at or just before which the rate of a displacement that drives jumps, in order: no difference may reach
+    /// across. None where force drives.
+    pub kinks: Vec<usize>,
 }
 
 impl Trajectory {
