@@ -2,7 +2,7 @@
 //! the baseline, the best set grown, its causes exchanged for better ones, and pruned.
 
 use super::coarsely::trials;
-use super::finely::finely;
+use super::finely::{finely, finely_anew};
 use super::growing::{grown, least, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
@@ -135,7 +135,9 @@ pub fn search(
     }
     let best = finely(bench, best);
     let least = least(&bench.train, &baseline);
+    let before = best.clone();
     let (settled, mut places) = settled(bench, timed, least, best, &first);
+    let settled = finely_anew(bench, &before, settled);
     let mut best = tested(bench, &baseline, settled.clone());
     if best.effects != settled.effects {
         places = places::places(bench, timed, &best, &first, None);
