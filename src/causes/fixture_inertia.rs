@@ -77,7 +77,7 @@ fn acceleration(truth: &Trajectory, samples: f64, kinks: &[usize]) -> Vec<f64> {
     let wanted = NOISY * square(frequency) * size.sqrt();
     // A second difference has six times the variance of its samples.
     let noisy = (6.0_f64.sqrt() * noise(displacement) / wanted).sqrt();
-    let mean = |sample: usize| {
+    let from_sample_to_sample = |sample: usize| {
         let i = sample.clamp(1, count - 2);
         let rate = |i: usize| (displacement[i] - displacement[i - 1]) / (time[i] - time[i - 1]);
         2.0 * (rate(i + 1) - rate(i)) / (time[i + 1] - time[i - 1])
@@ -97,13 +97,13 @@ fn acceleration(truth: &Trajectory, samples: f64, kinks: &[usize]) -> Vec<f64> {
             corners: &[],
         };
         match stretch.len() < SMOOTH.min(count) {
-            true => accelerations.extend(stretch.map(mean)),
+            true => accelerations.extend(stretch.map(from_sample_to_sample)),
             false => accelerations.extend(smooth(motion, frequency, (samples, noisy))),
         }
     }
     for kink in kinks() {
         for sample in [kink - 1, kink] {
-            accelerations[sample] = mean(sample);
+            accelerations[sample] = from_sample_to_sample(sample);
         }
     }
     accelerations
@@ -192,22 +192,20 @@ impl Effect for FixtureInertia {
         true
     }
     fn channel(&self, values: &[f64], _place: Place, truth: &Trajectory) -> Vec<f64> {
-        inertia([(values[0], 1.0), (values[1], SLOW)], truth)
+        inertia(
+            [(values[0], 1.0, &truth.kinks), (values[1], SLOW, &[])],
+            truth,
+        )
     }
     fn in_turns(&self, values: &[f64], truth: &Trajectory) -> Vec<f64> {
-        inertia([(values[0], 1.0), (values[1], 1.0)], truth)
+        inertia([(values[0], 1.0, &[]), (values[1], 1.0, &[])], truth)
     }
 }
 
-/// Inertia of masses \[kg\] whose acceleration reaches over so many samples \[N\].
-fn inertia(masses: [(f64, f64); 2], truth: &Trajectory) -> Vec<f64> {
+/// Inertia \[N\] of masses \[kg\] whose acceleration reaches over so many samples, and not across some jumps of the rate.
+fn inertia(masses: [(f64, f64, &[usize]); 2], truth: &Trajectory) -> Vec<f64> {
     let mut sum = vec![0.0; truth.time.len()];
-    for (mass, samples) in masses.into_iter().filter(|(mass, _)| *mass != 0.0) {
-        let kinks = if samples == 1.0 {
-            &truth.kinks[..]
-        } else {
-            &[]
-        };
+    for (mass, samples, kinks) in masses.into_iter().filter(|(mass, ..)| *mass != 0.0) {
         let moved = acceleration(truth, samples, kinks).into_iter();
         sum.iter_mut().zip(moved).for_each(|(s, a)| *s += mass * a);
     }
