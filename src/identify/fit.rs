@@ -132,11 +132,7 @@ pub fn refit(problem: &Problem, start: &Fit, effects: Vec<Acting>) -> Fit {
 
 /// The fit with other effects, as they are, and the dictionary as it suits them.
 pub fn suited(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> Fit {
-    let other = Fit {
-        effects,
-        ..fit.clone()
-    };
-    let reached = Reached::at(problem, other.coefficients.clone(), other.acting());
+    let (reached, other) = with(problem, fit, effects);
     reached.suited(problem).fit(other)
 }
 
@@ -147,13 +143,19 @@ pub(super) fn suited_below(
     effects: Vec<Acting>,
     misfit: f64,
 ) -> Option<Fit> {
+    let (reached, other) = with(problem, fit, effects);
+    let suited = reached.suited_below(problem, misfit)?;
+    Some(suited.fit(other))
+}
+
+/// What a fit reaches with other effects, its dictionary as it is.
+fn with(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> (Reached, Fit) {
     let other = Fit {
         effects,
         ..fit.clone()
     };
     let reached = Reached::at(problem, other.coefficients.clone(), other.acting());
-    let suited = reached.suited_below(problem, misfit)?;
-    Some(suited.fit(other))
+    (reached, other)
 }
 
 /// The fit without one of its effects, the others as they are and the dictionary as it suits them.
@@ -394,8 +396,7 @@ pub(super) fn normal(
 /// the joint without an effect is not the joint beside it.
 pub(super) fn projected(
     problem: &Problem,
-    coefficients: &[f64],
-    effects: &[Acting],
+    (coefficients, effects): (&[f64], &[Acting]),
     at: &[Prediction],
 ) -> (Vec<f64>, f64) {
     let columns = problem.operators.columns();

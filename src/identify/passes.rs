@@ -1,7 +1,6 @@
 //! Passes through the records of a problem: by what drives each, as it was measured or without what the measuring chain
 //! added to it.
 
-use super::beginning::Beginning;
 use super::march::{Cells, March, Step, Wear};
 use super::operators::Form;
 use super::prepared::Prepared;
@@ -45,7 +44,8 @@ impl Problem {
             self.pass(k, coefficients, effects, each);
             return;
         };
-        self.driven(k, model, (&self.wear_before(k, model), driven), each);
+        let before = (&self.wear_before(k, model), &self.turned(k, effects)[..]);
+        self.driven(k, model, before, driven, each);
     }
 
     /// True where an effect of a record depends on what the records before it were.
@@ -94,10 +94,11 @@ impl Problem {
         if form == Form::Stop {
             truth.kinks.clone_from(&driven.1.kinks);
         }
+        let turned = self.turned(k, model.1);
         let mut turns = Turns::new(if in_turns.is_empty() { 1 } else { self.turns });
         let as_read = (!turns.end()).then(|| driven.clone());
         let worn = loop {
-            let worn = self.driven(k, model, (wear, &driven), |i, march, step| {
+            let worn = self.driven(k, model, (wear, &turned), &driven, |i, march, step| {
                 if let Some(i) = i {
                     truth.force[i] = step.force;
                     truth.displacement[i] = step.displacement;
@@ -135,25 +136,29 @@ impl Problem {
         correcting.partition(|a| a.effect.follows_motion())
     }
 
-    /// One march through record `k` by what drives it; the joint as worn as that leaves it.
+    /// Readings at which the load turned before record `k`, as the joint had them.
+    fn turned(&self, k: usize, effects: &[Acting]) -> Vec<f64> {
+        let (_, correcting) = self.correcting(effects);
+        let readings = &self.records[k].beginning.turned;
+        true_turns(self.operators.form, readings, &correcting)
+    }
+
+    /// One march through record `k` by what drives it, from what was before; the joint as worn as that leaves it.
     fn driven(
         &self,
         k: usize,
         (coefficients, effects, cells): (&[f64], &[Acting], Cells),
-        (wear, (input, between)): (&Wear, &(Vec<f64>, Between)),
+        (wear, turned): (&Wear, &[f64]),
+        (input, between): &(Vec<f64>, Between),
         each: impl FnMut(Option<usize>, &March, Step),
     ) -> Wear {
         let (record, operators) = (&self.records[k], &self.operators);
-        let Beginning {
-            turned, goes_on, ..
-        } = &record.beginning;
+        let goes_on = record.beginning.goes_on;
         let new = Wear::default();
         let wear = if self.is_made_anew(k) { &new } else { wear };
-        let (_, correcting) = self.correcting(effects);
-        let turned = true_turns(operators.form, turned, &correcting);
         let cells = (cells, self.hauling);
-        let mut march = March::new(operators, coefficients, effects, cells).worn(wear, *goes_on);
-        walk(record, (&turned, input, between), &mut march, each);
+        let mut march = March::new(operators, coefficients, effects, cells).worn(wear, goes_on);
+        walk(record, (turned, input, between), &mut march, each);
         march.wear()
     }
 
@@ -182,6 +187,21 @@ mod tests {
     use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
+
+    fn driven_by_a_sine(samples: u32) -> Record {
+        let force: Vec<f64> = (0..samples).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        Record {
+            displacement: vec![0.0; force.len()],
+            force,
+            ..Record::default()
+        }
+    }
+
+    /// The largest difference of two channels.
+    fn differ(one: &[f64], other: &[f64]) -> f64 {
+        let both = one.iter().zip(other);
+        both.fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()))
+    }
 
     /// A load cell that reads too much; by what its law says it follows.
     struct Gain {
@@ -236,13 +256,7 @@ mod tests {
 
     #[test]
     fn a_record_begins_as_worn_as_those_before_it_left_the_joint() {
-        let force: Vec<f64> = (0..150).map(|i| (0.1 * f64::from(i)).sin()).collect();
-        let record = Record {
-            name: "worn".to_string(),
-            displacement: vec![0.0; force.len()],
-            force,
-            ..Record::default()
-        };
+        let record = driven_by_a_sine(150);
         let mut problem = Problem::new(Form::Play, &[record.clone(), record.clone(), record]);
         let mut coefficients = vec![0.0; problem.operators.columns()];
         (coefficients[0], coefficients[20], coefficients[30]) = (1.0, 2.0, 3.0);
@@ -257,10 +271,6 @@ mod tests {
             all[k].judged.clone()
         };
         let expected = [made_new(0, 0.0), made_new(1, 149.0), made_new(2, 298.0)];
-        let differ = |one: &[f64], other: &[f64]| {
-            let both = one.iter().zip(other);
-            both.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()))
-        };
         assert!(differ(&expected[1], &expected[0]) > 0.1);
         problem.wears_on = true;
         let predicted = problem.predict(&coefficients, &from(0.0));
@@ -273,13 +283,7 @@ mod tests {
 
     #[test]
     fn beside_a_spring_that_softens_the_network_carries_more_than_the_force() {
-        let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
-        let record = Record {
-            name: "softening".to_string(),
-            displacement: vec![0.0; force.len()],
-            force,
-            ..Record::default()
-        };
+        let record = driven_by_a_sine(200);
         static BESIDE: Beside = Beside(Place::BesideJoint);
         let problem = Problem::new(Form::Play, &[record]);
         let cells = problem.operators.edges.len();
@@ -305,13 +309,8 @@ mod tests {
     /// What follows the motion needs the repeated pass, what follows the force alone does not.
     #[test]
     fn what_a_load_cell_adds_is_taken_off_the_force_that_drives() {
-        let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
-        let record = Record {
-            name: "gain".to_string(),
-            displacement: vec![0.0; force.len()],
-            force: force.clone(),
-            ..Record::default()
-        };
+        let record = driven_by_a_sine(200);
+        let force = record.force.clone();
         let problem = Problem::new(Form::Play, &[record]);
         let mut coefficients = vec![0.0; problem.operators.columns()];
         coefficients[0] = 2.0;
@@ -330,13 +329,7 @@ mod tests {
     /// Its last turn, that is, and nothing of the measured input.
     #[test]
     fn a_pass_again_is_driven_by_what_the_prediction_was() {
-        let force: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin()).collect();
-        let record = Record {
-            name: "gain".to_string(),
-            displacement: vec![0.0; force.len()],
-            force,
-            ..Record::default()
-        };
+        let record = driven_by_a_sine(200);
         let problem = Problem::new(Form::Play, &[record]);
         let mut coefficients = vec![0.0; problem.operators.columns()];
         (coefficients[0], coefficients[30]) = (2.0, 3.0);
@@ -352,10 +345,6 @@ mod tests {
                 displacement.extend(i.map(|_| step.displacement));
             });
             displacement
-        };
-        let differ = |one: &[f64], other: &[f64]| {
-            let both = one.iter().zip(other);
-            both.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()))
         };
         assert!(differ(&again(&at), &at.truth.displacement) < 1e-12);
         if let Some((input, between)) = &mut at.driven {

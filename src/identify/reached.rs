@@ -48,26 +48,21 @@ impl Reached {
 
     /// The same effects with the dictionary that suits them.
     pub fn suited(&self, problem: &Problem) -> Reached {
-        let (anew, _) = projected(
-            problem,
-            &self.coefficients,
-            &self.effects,
-            &self.predictions,
-        );
+        let (anew, _) = self.projected(problem);
         Reached::at(problem, anew, self.effects.clone())
     }
 
     /// The same, where it leaves less than a misfit; not marched where its linearised model foretells that it does not.
     pub fn suited_below(&self, problem: &Problem, misfit: f64) -> Option<Reached> {
-        let (anew, foretold) = projected(
-            problem,
-            &self.coefficients,
-            &self.effects,
-            &self.predictions,
-        );
+        let (anew, foretold) = self.projected(problem);
         let march = || Reached::at(problem, anew, self.effects.clone());
         let suited = (foretold < misfit).then(march);
         suited.filter(|suited| suited.misfit < misfit)
+    }
+
+    fn projected(&self, problem: &Problem) -> (Vec<f64>, f64) {
+        let model = (&self.coefficients[..], &self.effects[..]);
+        projected(problem, model, &self.predictions)
     }
 
     /// A fit like another one as this is.
