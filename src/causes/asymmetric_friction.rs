@@ -58,6 +58,7 @@ impl Cause for AsymmetricFriction {
         &AsymmetricFriction
     }
     fn starts(&self, _scale: &Scale) -> Vec<Vec<f64>> {
-        vec![vec![0.02]]
+        // A joint of two populations has a minimum of its own for every place where asymmetry brings one upon the other.
+        vec![vec![0.02], vec![0.35], vec![-0.35]]
     }
 }

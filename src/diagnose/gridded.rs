@@ -122,14 +122,14 @@ pub(super) mod tests {
         slid(&[1.20, 1.23, 1.26], displacement)
     }
 
-    fn tone(displacement: &[f64]) -> Vec<f64> {
+    pub fn tone(displacement: &[f64]) -> Vec<f64> {
         (0..displacement.len())
             .map(|i| (2.9 * i as f64).sin())
             .collect()
     }
 
     /// What a load cell adds, by a law of the displacement.
-    struct Adds(fn(&[f64]) -> Vec<f64>);
+    pub struct Adds(fn(&[f64]) -> Vec<f64>);
 
     impl Effect for Adds {
         fn name(&self) -> &'static str {
@@ -201,7 +201,7 @@ pub(super) mod tests {
     }
 
     static MENDS: Adds = Adds(sharp);
-    static SOUNDS: Adds = Adds(tone);
+    pub static SOUNDS: Adds = Adds(tone);
 
     /// What cells of half the spacing leave, and those of the bench, of a joint of which half slips at one threshold.
     fn at_once(threshold: f64) -> [f64; 2] {

@@ -5,11 +5,13 @@ use super::growing::leaves_structure;
 use super::investigation::{Investigation, searched};
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
+use super::taught::left_on_own_cells;
 use super::trials::{ALARM, Effort, Trial, one_leaves, penalty};
 
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
 use crate::identify::{Fit, Form, baseline};
 use crate::record::Record;
+use rayon::prelude::*;
 
 /// Said where the records are searched with another beginning.
 const ONCE_MORE: &str =
@@ -110,7 +112,14 @@ pub(super) fn made_anew(
             let near = one.found.best.misfit + beyond * one.dispersion();
             let asked = (Effort::Full, near);
             let singles = || trials(&bench.train, &bench.scale, timed, &first, asked);
-            if one.is_plain() && !one_leaves(&singles(), near) {
+            // A single cause that takes the better part may leave as little on cells that suit it.
+            let half = 0.5 * (first.misfit + near);
+            let suits = |t: &Trial| {
+                t.plausible && t.fit.misfit < half && left_on_own_cells(&bench.train, &t.fit) < near
+            };
+            let one_does =
+                |singles: &[Trial]| one_leaves(singles, near) || singles.par_iter().any(suits);
+            if one.is_plain() && !one_does(&singles()) {
                 return one;
             }
             all.push(one);

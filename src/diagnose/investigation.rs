@@ -5,6 +5,7 @@ use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::Bench;
 use super::search::{Found, quick, search};
+use super::taught::taught;
 use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of};
 use crate::causes::Cause;
 use crate::identify::beginning::Beginning;
@@ -27,6 +28,9 @@ const SLIGHT: f64 = 0.1;
 
 /// Said where every cause is tried.
 pub(super) const SEARCHING: &str = "searching the catalogue for causes";
+
+/// Said where they are tried again with what the first ones taught.
+const KNOWN_BETTER: &str = "once more: noise or joint are known better beside what was found";
 
 /// Records, and what was found in them.
 pub struct Investigation {
@@ -65,6 +69,14 @@ pub(super) fn searched(
     let enough = enough / bench.innovation_square();
     progress(SEARCHING);
     let mut found = search(&mut bench, timed, (first, known), enough);
+    if !found.unasked
+        && let Some(mut taught) = taught(&bench, &found.best)
+    {
+        progress(KNOWN_BETTER);
+        let first = baseline(&taught.train);
+        found = search(&mut taught, timed, (first, None), f64::INFINITY);
+        bench = taught;
+    }
     bench.weigh_what_is_left(&found.best);
     if !bench.noise_is_repeated() {
         found.weigh(&bench.train);

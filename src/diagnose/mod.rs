@@ -42,6 +42,7 @@ mod sizes;
 mod smooth_drive;
 mod striking;
 pub mod structure;
+mod taught;
 mod tested;
 mod tone;
 pub mod trials;

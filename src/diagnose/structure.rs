@@ -10,7 +10,8 @@ use crate::record::noise::Noise;
 pub struct Structure {
     /// Variance that means over bins share, over the variance within bins: zero for noise.
     pub share: f64,
-    /// Standard error of the share where noise alone is left.
+    /// Standard error of the share where noise alone is left, and at least what the share loses where noise is as slow as it
+    /// may be.
     pub error: f64,
     /// Standard deviations by which the bins' means exceed what noise gives them, none counted for
     /// more than [`LOUDEST`].
@@ -66,22 +67,30 @@ const PHASES: usize = 16;
 /// peak that fell between two samples is not.
 const LOUDEST: f64 = 25.0;
 
+/// Standard errors that the noise of one record may be slower than it was taken for. That of several is so in all of them by
+/// the less, the more of them told it each by itself.
+const TWO: f64 = 2.0;
+
 /// Bins the whitened residual by record × load level × phase (what repeats with the load), and by
 /// record × cycle (what wanders from cycle to cycle), and compares the means with the scatter
 /// within.
 ///
 /// Noise more alike than it was taken for wanders where it should be white, so structure is what stands
 /// out by the largest correlation that the noise may have as well: the lesser significance of both is told,
-/// and the shares by the likeliest.
+/// and the shares by the likeliest. Their error is at least what the shares lose by it.
 pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> Structure {
     let known = noise.to_vec();
+    // One record may lend another its noise.
+    let told = (0..noise.len()).filter(|&k| !noise[..k].contains(&noise[k]));
+    let errors = TWO / (told.count().max(1) as f64).sqrt();
     let most = noise.iter().map(|n| Noise {
-        autoregression: n.most_alike(),
+        autoregression: n.most_alike(errors),
         ..*n
     });
     let [taken, alike] =
         [known, most.collect()].map(|noise| whitened_by(problem, predictions, &noise));
     Structure {
+        error: taken.error.max(taken.share - (alike.share - alike.error)),
         significance: taken.significance.min(alike.significance),
         ringing: taken.ringing.min(alike.ringing),
         ..taken
@@ -422,6 +431,32 @@ mod tests {
             assert_eq!(alarms, 0, "{alike}");
             assert!(seen(alike, 2.0), "{alike}");
         }
+    }
+
+    /// First-order noise of 0.8 that few repeated samples told as 0.65, two standard errors off.
+    #[test]
+    fn noise_slower_than_it_was_told_leaves_no_share_that_counts() {
+        let mut random = ChaCha8Rng::seed_from_u64(20261129);
+        let nothing = Prediction {
+            judged: vec![0.0; 1200],
+            ..Prediction::default()
+        };
+        let mut counts = |samples: usize| {
+            let (record, noise) = left(0.8, 0.0, &mut random);
+            let told = Noise {
+                autoregression: 0.65,
+                samples,
+                repeated: true,
+                ..noise
+            };
+            let problem = Problem::new(Form::Play, &[record]);
+            let seen = structure(&problem, std::slice::from_ref(&nothing), &[told]);
+            usize::from(seen.share > seen.error)
+        };
+        let few: usize = (0..100).map(|_| counts(200)).sum();
+        let many: usize = (0..100).map(|_| counts(200_000)).sum();
+        // One in six of noise that is as slow as that.
+        assert!(few < 30 && many > 90, "{few} {many}");
     }
 
     /// Two records of six equal cycles, and white noise of a deviation in each, with an event of so many of them in one cycle.

@@ -192,8 +192,58 @@ impl Operators {
         Operators::with_edges(self.form, edges)
     }
 
+    /// Coefficients of the same joint on other cells of the same range: what a cell holds is spread evenly over it.
+    pub fn carried(&self, coefficients: &[f64], to: &Operators) -> Vec<f64> {
+        let edges = self.edges.len();
+        let mut sums = vec![0.0];
+        for cell in &coefficients[1..=edges] {
+            sums.push(sums[sums.len() - 1] + cell);
+        }
+        let up_to = |edge: f64| {
+            let cell = self.edges.partition_point(|e| *e < edge).min(edges - 1);
+            let from = if cell == 0 { 0.0 } else { self.edges[cell - 1] };
+            let share = ((edge - from) / (self.edges[cell] - from)).clamp(0.0, 1.0);
+            sums[cell] + share * (sums[cell + 1] - sums[cell])
+        };
+        let mut carried = vec![coefficients[0]];
+        let mut before = 0.0;
+        for edge in &to.edges {
+            let sum = up_to(*edge);
+            carried.push(sum - before);
+            before = sum;
+        }
+        carried.extend(&coefficients[1 + edges..]);
+        carried
+    }
+
     /// Count of columns: the elastic one and one per cell.
     pub fn columns(&self) -> usize {
         self.thresholds.len() / SHARED + 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one joint every grid has the same compliance up to an edge that both share, and none loses any.
+    #[test]
+    fn a_joint_is_carried_to_other_cells_whole() {
+        let grid = Operators::grid(Form::Play, 10.0);
+        let coefficients: Vec<f64> = (0..grid.columns()).map(|j| 1.0 + j as f64 % 3.0).collect();
+        let same = grid.carried(&coefficients, &grid);
+        let off = same.iter().zip(&coefficients).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-12);
+        let edges: Vec<f64> = (1..=25).map(|j| 0.4 * f64::from(j)).collect();
+        let other = Operators::with_edges(Form::Play, edges);
+        let carried = grid.carried(&coefficients, &other);
+        assert_eq!(carried.len(), other.columns());
+        let whole = |c: &[f64]| c.iter().sum::<f64>();
+        assert!((whole(&carried) - whole(&coefficients)).abs() < 1e-9);
+        // A cell that holds the first one of the grid whole and a part of the next.
+        let [first, second] = [grid.edges[0], grid.edges[1]];
+        let coarse = Operators::with_edges(Form::Play, vec![0.5 * (first + second), 10.0]);
+        let part = grid.carried(&coefficients, &coarse)[1];
+        assert!((part - coefficients[1] - 0.5 * coefficients[2]).abs() < 1e-12);
     }
 }

@@ -36,11 +36,11 @@ impl Noise {
         self.deviation * (1.0 - self.autoregression * self.autoregression).sqrt()
     }
 
-    /// The largest correlation of neighbours within two standard errors, `√((1 − a²)/n)` each (Bartlett).
-    pub fn most_alike(&self) -> f64 {
+    /// The largest correlation of neighbours within so many standard errors, `√((1 − a²)/n)` each (Bartlett).
+    pub fn most_alike(&self, errors: f64) -> f64 {
         let a = self.autoregression;
         let error = ((1.0 - a * a) / self.told_by().max(1.0)).sqrt();
-        (a + 2.0 * error).min(MOST_ALIKE.max(a))
+        (a + errors * error).min(MOST_ALIKE.max(a))
     }
 
     /// Spectral density of whitened noise where it is largest over its mean, `(1 + c)/(1 − c)` with what whitening leaves of the
