@@ -97,6 +97,12 @@ static PARAMETERS: [Parameter; 8] = [
 /// Power from which an onset that is not in proportion is refined.
 const LATER: f64 = 3.0;
 
+/// Share of the gain that a channel at the end of its range loses at least.
+const ENDS: f64 = 0.1;
+
+/// Share of the range within which a channel that ends reads everything right.
+const RIGHT: f64 = 0.5;
+
 /// How the reading falls behind at a depth beyond a level.
 struct Knee {
     sharpness: f64,
@@ -121,6 +127,15 @@ impl Knee {
             level,
             onset,
             end,
+        }
+    }
+
+    /// Share of the gain that is lost at a depth, `dl/dd`.
+    fn gain_lost(&self, depth: f64) -> f64 {
+        match depth.max(0.0) {
+            depth if depth >= self.end => 1.0,
+            depth if self.onset == 2.0 => self.sharpness * depth,
+            depth => self.sharpness * self.level * power(depth / self.level, self.onset - 1.0),
         }
     }
 
@@ -197,6 +212,16 @@ impl Cause for SensorSaturation {
         }
         starts
     }
+    fn also_called(&self, values: &[f64], scale: &Scale) -> Option<&'static str> {
+        let (first, range) = match values[4] != 0.0 {
+            true => (4, scale.force),
+            false => (0, scale.displacement),
+        };
+        let nearest = values[first + 1].min(values[first + 2]);
+        let lost = Knee::of(&values[first..first + 4]).gain_lost(range - nearest);
+        // A scale that bends from early on, and by little to its end, is no range that ends.
+        (lost < ENDS && nearest < RIGHT * range).then_some("sensor_nonlinearity")
+    }
     fn refined(&self, values: &[f64], _scale: &Scale) -> Vec<f64> {
         let mut values = values.to_vec();
         let onset = if values[4] != 0.0 { 7 } else { 3 };
@@ -208,6 +233,36 @@ impl Cause for SensorSaturation {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The gain lost is the slope of what is not read, on either side of where nothing more is read.
+    #[test]
+    fn a_scale_that_bends_early_and_little_is_also_called_not_linear() {
+        for onset in [2.0, 4.0] {
+            let knee = Knee::of(&[0.25, 2.0, 1.5, onset]);
+            for depth in [0.3, 1.0, 1.5] {
+                let slope = (knee.lost(depth + 1e-6) - knee.lost(depth - 1e-6)) / 2e-6;
+                assert!(
+                    (slope - knee.gain_lost(depth)).abs() < 1e-6,
+                    "{onset} {depth}"
+                );
+            }
+            assert_eq!(knee.gain_lost(knee.end + 0.1), 1.0);
+        }
+        let scale = Scale {
+            displacement: 10.0,
+            force: 100.0,
+            ..Scale::default()
+        };
+        let none = [0.0, 0.0, 0.0, 2.0];
+        let called = |own: [f64; 4]| SensorSaturation.also_called(&[own, none].concat(), &scale);
+        assert_eq!(called([0.002, 1.0, 8.0, 2.0]), Some("sensor_nonlinearity"));
+        // Much of the gain is lost in the end, or nothing before the end is near.
+        assert_eq!(called([0.02, 1.0, 8.0, 2.0]), None);
+        assert_eq!(called([0.002, 7.0, 8.0, 2.0]), None);
+        let cell = [none, [0.0002, 10.0, 80.0, 2.0]].concat();
+        let of_cell = SensorSaturation.also_called(&cell, &scale);
+        assert_eq!(of_cell, Some("sensor_nonlinearity"));
+    }
 
     #[test]
     fn it_clips_beyond_its_levels_and_leaves_the_rest() {

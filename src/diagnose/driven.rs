@@ -3,8 +3,9 @@
 use super::coarsely::trials;
 use super::growing::leaves_structure;
 use super::however_worn::however_worn;
-use super::investigation::{Investigation, quickly_searched};
+use super::investigation::Investigation;
 use super::prepare::prepare;
+use super::searched::quickly_searched;
 use super::trials::{ALARM, Effort};
 use crate::identify::beginning::Beginning;
 use crate::identify::{Form, as_driven, baseline, refit_below};

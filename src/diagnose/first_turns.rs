@@ -1,7 +1,8 @@
 //! First turns of records, which may follow from loads before them.
 
-use super::investigation::{Investigation, searched};
+use super::investigation::Investigation;
 use super::prepare::Bench;
+use super::searched::searched;
 use super::trials::{ALARM, dispersion};
 use crate::identify::beginning::{at_zero, early};
 use crate::identify::{Fit, Problem, baseline, refit, without};

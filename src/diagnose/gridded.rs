@@ -129,7 +129,7 @@ pub(super) mod tests {
     }
 
     /// What a load cell adds, by a law of the displacement.
-    pub struct Adds(fn(&[f64]) -> Vec<f64>);
+    pub struct Adds(pub fn(&[f64]) -> Vec<f64>);
 
     impl Effect for Adds {
         fn name(&self) -> &'static str {

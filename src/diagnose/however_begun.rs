@@ -2,9 +2,10 @@
 
 use super::coarsely::trials;
 use super::growing::leaves_structure;
-use super::investigation::{Investigation, searched};
+use super::investigation::Investigation;
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
+use super::searched::searched;
 use super::taught::left_on_own_cells;
 use super::trials::{ALARM, Effort, Trial, one_leaves, penalty};
 

@@ -3,8 +3,9 @@
 use super::coarsely::trials_of;
 use super::growing::{FURTHER_SHARE, leaves_structure, structure_left};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
-use super::investigation::{Investigation, SEARCHING, searched};
+use super::investigation::Investigation;
 use super::search::{Found, alone};
+use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 
 use crate::causes::Cause;

@@ -4,8 +4,7 @@ use super::coarsely::trials_of;
 use super::growing::{FURTHER_SHARE, leaves_structure};
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::Bench;
-use super::search::{Found, quick, search};
-use super::taught::taught;
+use super::search::Found;
 use super::trials::{ALARM, Effort, Trial, dispersion, implausible, penalty, trial_of};
 use crate::causes::Cause;
 use crate::identify::beginning::Beginning;
@@ -26,12 +25,6 @@ const FAR: f64 = 4.0;
 /// Part of the noise's variance that counts as left at least.
 const SLIGHT: f64 = 0.1;
 
-/// Said where every cause is tried.
-pub(super) const SEARCHING: &str = "searching the catalogue for causes";
-
-/// Said where they are tried again with what the first ones taught.
-const KNOWN_BETTER: &str = "once more: noise or joint are known better beside what was found";
-
 /// Records, and what was found in them.
 pub struct Investigation {
     /// The records, with how each of them begins.
@@ -51,75 +44,6 @@ fn left(train: &Problem, fit: &Fit, (k, beginning): (usize, &Beginning)) -> f64 
     };
     one.records[k - before].beginning.clone_from(beginning);
     one.misfit(&one.predict(&fit.coefficients, &fit.acting())).0
-}
-
-/// What is found from the baseline of the records as they are weighed, and every cause alone where that is `known`; what
-/// leaves more than `enough` of every row is not
-/// asked further.
-pub(super) fn searched(
-    mut bench: Bench,
-    (mut first, mut known): (Fit, Option<Vec<Trial>>),
-    (timed, enough): (bool, f64),
-    progress: &mut impl FnMut(&str),
-) -> Investigation {
-    if !bench.noise_is_repeated() {
-        first = noise_told(&mut bench, timed, first, progress);
-        known = None;
-    }
-    let enough = enough / bench.innovation_square();
-    progress(SEARCHING);
-    let mut found = search(&mut bench, timed, (first, known), enough);
-    if !found.unasked
-        && let Some(mut taught) = taught(&bench, &found.best)
-    {
-        progress(KNOWN_BETTER);
-        let first = baseline(&taught.train);
-        found = search(&mut taught, timed, (first, None), f64::INFINITY);
-        bench = taught;
-    }
-    bench.weigh_what_is_left(&found.best);
-    if !bench.noise_is_repeated() {
-        found.weigh(&bench.train);
-    }
-    Investigation { bench, found }
-}
-
-/// The baseline of records in which too few cycles repeat, weighed by what a quick search leaves.
-fn noise_told(
-    bench: &mut Bench,
-    timed: bool,
-    mut first: Fit,
-    progress: &mut impl FnMut(&str),
-) -> Fit {
-    progress("what is noise: a quick search, because too few cycles repeat");
-    for _ in 0..2 {
-        bench.weigh_what_is_left(&quick(bench, timed, &first));
-        first = baseline(&bench.train);
-    }
-    first
-}
-
-/// What a quick search alone finds in such records, or the given set of causes where that leaves less.
-pub(super) fn quickly_searched(
-    mut bench: Bench,
-    timed: bool,
-    given: &[Acting],
-    progress: &mut impl FnMut(&str),
-) -> Investigation {
-    let plain = baseline(&bench.train);
-    let first = noise_told(&mut bench, timed, plain, progress);
-    let (sought, given) = rayon::join(
-        || quick(&bench, timed, &first),
-        || refit(&bench.train, &first, given.to_vec()),
-    );
-    let best = match given.misfit < sought.misfit {
-        true => given,
-        false => sought,
-    };
-    bench.weigh_what_is_left(&best);
-    let mut found = Found::unasked(first, best, Vec::new());
-    found.weigh(&bench.train);
-    Investigation { bench, found }
 }
 
 impl Investigation {
@@ -350,6 +274,7 @@ mod tests {
     use super::*;
     use crate::diagnose::prepare::prepare;
     use crate::diagnose::search::tests::dashpot;
+    use crate::diagnose::searched::searched;
     use crate::identify::Form;
     use crate::record::Record;
     use crate::record::noise::tests::drawn;

@@ -38,6 +38,7 @@ mod probability;
 mod ready;
 mod refinements;
 pub mod search;
+mod searched;
 mod sizes;
 mod smooth_drive;
 mod striking;

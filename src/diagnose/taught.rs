@@ -1,8 +1,12 @@
 //! Records as a search of them teaches to read them: with the noise and on the cells that suit the causes it found.
 
 use super::prepare::Bench;
-use super::trials::{ALARM, dispersion};
-use crate::identify::{Fit, Operators, Problem, suited};
+use super::search::alone;
+use super::trials::{ALARM, Trial, dispersion};
+use crate::identify::finer::finer;
+use crate::identify::operators::COUNT;
+use crate::identify::{Fit, Problem, refit, suited, without};
+use crate::joint::effect::Acting;
 use crate::record::noise::Noise;
 use crate::record::repeats::from_repeats;
 
@@ -17,31 +21,65 @@ const MOST: f64 = 0.5;
 /// Times that cells are spread anew by what was fitted on the last ones.
 const ROUNDS: usize = 3;
 
+/// Records read otherwise, and the causes whose set that suits.
+pub(super) struct Taught {
+    /// The records.
+    pub(super) bench: Bench,
+    /// The set, or one of a cause less.
+    suits: Vec<Acting>,
+}
+
 /// The records with less noise, where causes took away what repeated cycles had shown of them, and on other cells, where
 /// those of the baseline suit a joint without the causes: cells crowd where the density is high, and beside a strong cause
 /// the baseline's is elsewhere.
 ///
-/// `None` where neither changes what the causes leave by more than chance.
-pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Bench> {
+/// `None` where neither changes what the causes leave, or what one of several brings beside the others, by more than
+/// chance.
+pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Taught> {
     if best.effects.is_empty() {
         return None;
     }
+    let train = &bench.train;
     let (noise, cells) = rayon::join(
         || noise_beside(bench, best),
-        || cells_beside(&bench.train, best),
+        || cells_of_fewer(train, best).or_else(|| cells_beside(train, best)),
     );
     if noise.is_none() && cells.is_none() {
         return None;
     }
-    let mut taught = bench.clone();
-    if let Some((operators, _)) = cells {
-        taught.whole.operators.clone_from(&operators);
-        taught.train.operators = operators;
+    let mut taught = Taught {
+        bench: bench.clone(),
+        suits: best.effects.clone(),
+    };
+    if let Some((suiting, fit)) = cells {
+        taught.bench.whole.operators.clone_from(&suiting.operators);
+        taught.bench.train.operators = suiting.operators;
+        taught.suits = fit.effects;
     }
     if let Some(noise) = noise {
-        taught.weigh(noise);
+        taught.bench.weigh(noise);
     }
     Some(taught)
+}
+
+impl Taught {
+    /// Every cause alone beside the baseline; one that the records suit from where it was found as well.
+    pub(super) fn alone(&self, timed: bool, first: &Fit) -> Vec<Trial> {
+        let Bench { train, scale, .. } = &self.bench;
+        let mut trials = alone(&self.bench, timed, first);
+        let [one] = self.suits.as_slice() else {
+            return trials;
+        };
+        let fit = refit(train, first, vec![one.clone()]);
+        let own = |t: &&mut Trial| t.cause.name() == one.effect.name();
+        if let Some(trial) = trials.iter_mut().find(own)
+            && fit.misfit < trial.fit.misfit
+        {
+            *trial = Trial::of((train, scale), trial.cause, first, fit);
+        }
+        trials.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        trials
+    }
 }
 
 /// Noise as cycles of what a set leaves tell it, where that is less than repeated cycles of the response or of what
@@ -70,46 +108,90 @@ fn noise_beside(bench: &Bench, best: &Fit) -> Option<Vec<Noise>> {
 
 /// What a set leaves on the cells that suit it.
 pub(super) fn left_on_own_cells(train: &Problem, fit: &Fit) -> f64 {
-    cells_beside(train, fit).map_or(fit.misfit, |(_, left)| left)
+    cells_beside(train, fit).map_or(fit.misfit, |(_, suited)| suited.misfit)
 }
 
-/// As many cells, spread by the density beside the causes of a set, and what the set leaves on them; `None` where the set, its causes as they are, does not
-/// leave less on them by an alarm, and by most of what it leaves beyond noise.
-fn cells_beside(train: &Problem, best: &Fit) -> Option<(Operators, f64)> {
+/// The cells that suit a set, and the set on them; `None` where it does not leave less, its causes as they are, by
+/// an alarm, and by most of what it leaves beyond noise.
+fn cells_beside(train: &Problem, best: &Fit) -> Option<(Problem, Fit)> {
+    let (suiting, fit) = suiting(train, best);
+    let less = best.misfit - fit.misfit;
+    let beyond = best.misfit - train.rows() as f64;
+    let enough = (ALARM * dispersion(&suiting, &fit)).max(MOST * beyond);
+    (less > enough).then_some((suiting, fit))
+}
+
+/// The cells that suit one cause less than a set of several has, where beside those it brings less than [`MOST`] of what it
+/// brought: it mended the cells. With those others on them.
+fn cells_of_fewer(train: &Problem, best: &Fit) -> Option<(Problem, Fit)> {
+    if best.effects.len() < 2 {
+        return None;
+    }
+    let fewer = (0..best.effects.len()).filter_map(|place| {
+        let less = without(train, best, place);
+        let less = refit(train, &less, less.effects.clone());
+        let (suiting, fit) = suiting(train, &less);
+        let brought = less.misfit - best.misfit;
+        if less.misfit - fit.misfit < (1.0 - MOST) * brought {
+            return None;
+        }
+        let all = Fit {
+            coefficients: fit.coefficients.clone(),
+            ..best.clone()
+        };
+        let all = refit(&suiting, &all, all.effects.clone());
+        let brings = fit.misfit - all.misfit;
+        (brings < MOST * brought).then_some((suiting, fit))
+    });
+    fewer.min_by(|(_, a), (_, b)| a.misfit.total_cmp(&b.misfit))
+}
+
+/// As many cells spread by the density beside a set, or cells of half that width where they are wide, and the set on them,
+/// its causes as they are: what leaves least.
+fn suiting(train: &Problem, set: &Fit) -> (Problem, Fit) {
     let cells = train.operators.edges.len();
-    let mut now = (train.clone(), best.clone());
+    let mut now = (train.clone(), set.clone());
     for _ in 0..ROUNDS {
         let mut again = now.0.clone();
         again.operators = now.0.operators.adapted(&now.1.coefficients, cells);
-        let start = Fit {
-            coefficients: now
-                .0
-                .operators
-                .carried(&now.1.coefficients, &again.operators),
-            ..now.1.clone()
-        };
-        let fit = suited(&again, &start, start.effects.clone());
+        let carried = now
+            .0
+            .operators
+            .carried(&now.1.coefficients, &again.operators);
+        let fit = suited_from(&again, &now.1, carried);
         if fit.misfit >= now.1.misfit {
             break;
         }
         now = (again, fit);
     }
-    let (suiting, fit) = now;
-    let less = best.misfit - fit.misfit;
-    let beyond = best.misfit - train.rows() as f64;
-    let enough = (ALARM * dispersion(&suiting, &fit)).max(MOST * beyond);
-    (less > enough).then_some((suiting.operators, fit.misfit))
+    if cells > COUNT {
+        return now;
+    }
+    let (half, shared) = finer(&now.0, &now.1.coefficients);
+    let fit = suited_from(&half, &now.1, shared);
+    match fit.misfit < now.1.misfit {
+        true => (half, fit),
+        false => now,
+    }
+}
+
+/// A set, its causes as they are, with the dictionary that suits it from given coefficients on.
+fn suited_from(problem: &Problem, set: &Fit, coefficients: Vec<f64>) -> Fit {
+    let start = Fit {
+        coefficients,
+        ..set.clone()
+    };
+    suited(problem, &start, start.effects.clone())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::causes::find;
-    use crate::diagnose::gridded::tests::{SOUNDS, tone};
+    use crate::diagnose::gridded::tests::{Adds, SOUNDS, tone};
     use crate::diagnose::prepare::prepare;
     use crate::identify::beginning::Beginning;
-    use crate::identify::{Form, baseline, refit};
-    use crate::joint::effect::Acting;
+    use crate::identify::{Form, baseline};
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
@@ -166,7 +248,7 @@ mod tests {
             let effect = find("asymmetric_friction").unwrap().effect();
             let values = vec![share];
             let best = with(&bench, Acting { effect, values });
-            (taught(&bench, &best), bench, best)
+            (taught(&bench, &best).map(|t| t.bench), bench, best)
         };
         let (suiting, asked, best) = asymmetric(0.24);
         let suiting = suiting.unwrap();
@@ -178,6 +260,37 @@ mod tests {
         assert!(both[0] < 0.9 * both[1], "{both:?}");
         // Without asymmetry the baseline's own cells are as good.
         assert!(asymmetric(1e-3).0.is_none());
+    }
+
+    static MENDS: Adds = Adds(|displacement| joint(displacement, (1.24, 0.76)));
+
+    /// What adds the joint itself stands for cells that suit it; a sound stands for itself.
+    #[test]
+    fn cells_of_fewer_causes_are_those_beside_which_a_further_one_only_mended_cells() {
+        let mut noise = drawn(20261129);
+        let mut suits = |heard: f64, second: &'static Adds, value: f64| {
+            let displacement = driven();
+            let both = joint(&displacement, (1.24, 0.76))
+                .into_iter()
+                .zip(tone(&displacement));
+            let force = both.map(|(f, sound)| f + heard * sound + 0.02 * (noise() - 0.5));
+            let bench = bench(force.collect(), displacement);
+            let one = Acting {
+                effect: find("asymmetric_friction").unwrap().effect(),
+                values: vec![0.24],
+            };
+            let two = Acting {
+                effect: second,
+                values: vec![value],
+            };
+            let first = baseline(&bench.train);
+            let best = refit(&bench.train, &first, vec![one, two]);
+            cells_of_fewer(&bench.train, &best).map(|(_, fit)| fit.effects)
+        };
+        let kept = suits(0.0, &MENDS, 0.5).unwrap();
+        assert_eq!(kept.len(), 1);
+        assert_eq!(kept[0].effect.name(), "asymmetric_friction");
+        assert!(suits(0.02, &SOUNDS, 0.02).is_none());
     }
 
     /// A sound that no cycle repeats is noise until a cause takes it away.
@@ -199,7 +312,7 @@ mod tests {
                 values,
             },
         );
-        let told = taught(&bench, &best).unwrap().noise[0];
+        let told = taught(&bench, &best).unwrap().bench.noise[0];
         assert!((told.deviation / white - 1.0).abs() < 0.1, "{told:?}");
     }
 }

@@ -2,9 +2,10 @@
 //! the records searched again.
 
 use super::driven::however_driven;
-use super::investigation::{Investigation, searched};
+use super::investigation::Investigation;
 use super::places::scatter;
 use super::prepare::Bench;
+use super::searched::searched;
 use super::tested::each_unseen;
 use super::trials::ALARM;
 use crate::identify::{Fit, Form, baseline, refit};

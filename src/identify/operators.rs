@@ -84,7 +84,7 @@ pub const SHARED: usize = 4;
 
 /// Count of cells: fine enough that the virgin curve errs by far less than the noise of any record
 /// (checked on noise-free records by the tests of this room).
-const COUNT: usize = 40;
+pub const COUNT: usize = 40;
 
 /// Cells beyond the range of the input, for effects that let operators slip which the input alone
 /// would not reach: limits that depend on direction, rate or history, and corrected inputs.
