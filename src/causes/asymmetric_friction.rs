@@ -18,6 +18,9 @@ static PARAMETERS: [Parameter; 1] = [Parameter {
     meaning: "share by which break-free forces are larger towards positive slip and smaller towards negative",
 }];
 
+/// Asymmetry that a further search begins with at most.
+const FARTHEST: f64 = 0.8;
+
 impl Effect for AsymmetricFriction {
     fn name(&self) -> &'static str {
         "asymmetric_friction"
@@ -58,7 +61,22 @@ impl Cause for AsymmetricFriction {
         &AsymmetricFriction
     }
     fn starts(&self, _scale: &Scale) -> Vec<Vec<f64>> {
+        vec![vec![0.02]]
+    }
+    fn begun_anew(&self, values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
         // A joint of two populations has a minimum of its own for every place where asymmetry brings one upon the other.
-        vec![vec![0.02], vec![0.35], vec![-0.35]]
+        Some(vec![(2.0 * values[0]).clamp(-FARTHEST, FARTHEST)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_begun_once_more_farther_out_on_the_same_side() {
+        let anew = |a: f64| AsymmetricFriction.begun_anew(&[a], &Scale::default());
+        assert_eq!(anew(-0.2), Some(vec![-0.4]));
+        assert_eq!(anew(0.5), Some(vec![FARTHEST]));
     }
 }

@@ -111,10 +111,10 @@ pub(super) fn made_anew(
             let sought: usize = one.beginnings().map(Beginning::values).sum();
             let beyond = 2.0 * ALARM + penalty(&one.bench.train, sought);
             let near = one.found.best.misfit + beyond * one.dispersion();
-            let asked = (Effort::Full, near);
-            let singles = || trials(&bench.train, &bench.scale, timed, &first, asked);
             // A single cause that takes the better part may leave as little on cells that suit it.
             let half = 0.5 * (first.misfit + near);
+            let asked = (Effort::Full, half);
+            let singles = || trials(&bench.train, &bench.scale, timed, &first, asked);
             let suits = |t: &Trial| {
                 t.plausible && t.fit.misfit < half && left_on_own_cells(&bench.train, &t.fit) < near
             };

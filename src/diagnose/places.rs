@@ -142,15 +142,23 @@ impl Place {
 /// The law of a cause is only nearly that of the joint measured, so a strong effect tells two causes apart no better
 /// than laws are true: differences count over the [`temperature`] of probabilities. What the named cause leaves beyond
 /// the scatter of noise bounds it, for a law that leaves nothing is right, and so does what the test of structure would
-/// not see, [`NEGLIGIBLE`] of the noise.
+/// not see, [`NEGLIGIBLE`] of the noise. A rival whose stated probability is a tenth of its own or more is as good in any case:
+/// scatter hides more than such laws differ by.
 fn as_well(problem: &Problem, best: &Fit, brought: f64) -> f64 {
     let scale = dispersion(problem, best);
     let rows = problem.rows() as f64;
     let left = beyond_scatter(problem, best).max(0.0);
-    let untrue = (temperature(brought) - 1.0) * MARGIN;
-    let unseen = left.min(untrue).min(NEGLIGIBLE * rows * scale);
-    best.misfit + MARGIN * scale + unseen
+    let temperature = temperature(brought);
+    let untrue = (temperature - 1.0) * MARGIN;
+    let negligible = NEGLIGIBLE * rows * scale;
+    let unseen = left.min(untrue).min(negligible);
+    let likely = (2.0 * temperature * TENFOLD * scale).min(negligible);
+    best.misfit + (MARGIN * scale + unseen).max(likely)
 }
+
+/// Logarithm of the odds, ten to one, up to which a rival is named: of 302 drawn effects named alone four had a rival
+/// likelier than that, which was right in two.
+const TENFOLD: f64 = std::f64::consts::LN_10;
 
 /// Misfit beyond what noise alone leaves, its scatter included.
 pub fn beyond_scatter(problem: &Problem, fit: &Fit) -> f64 {
@@ -211,6 +219,27 @@ mod tests {
             let against = 0.5 * behind / dispersion(&problem, &best);
             assert!((-against / temperature(brought)).exp() > 0.04, "{brought}");
             assert!(behind >= MARGIN, "{brought}");
+        }
+    }
+
+    /// Whatever the scatter: at ten to one a rival is named, at twenty to one none is.
+    #[test]
+    fn a_rival_of_a_tenth_of_the_probability_is_named_where_nothing_is_left() {
+        let displacement: Vec<f64> = (0..40_000).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let record = Record {
+            force: displacement.clone(),
+            displacement,
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Stop, &[record]);
+        let best = Fit {
+            misfit: problem.rows() as f64,
+            ..baseline(&problem)
+        };
+        for brought in [5e3, 5e4] {
+            let behind = as_well(&problem, &best, brought) - best.misfit;
+            let odds = (0.5 * behind / temperature(brought)).exp();
+            assert!((9.99..20.0).contains(&odds), "{brought}: {odds}");
         }
     }
 }
