@@ -18,6 +18,10 @@ const LESS: f64 = 0.9;
 /// that.
 const MOST: f64 = 0.5;
 
+/// What a set of several may leave over the noise's variance to be asked whether one of them mends the cells: beside what no
+/// cause explains, cells are the least of what is wrong.
+const NEARLY_NOISE: f64 = 1.5;
+
 /// Times that cells are spread anew by what was fitted on the last ones.
 const ROUNDS: usize = 3;
 
@@ -124,7 +128,8 @@ fn cells_beside(train: &Problem, best: &Fit) -> Option<(Problem, Fit)> {
 /// The cells that suit one cause less than a set of several has, where beside those it brings less than [`MOST`] of what it
 /// brought: it mended the cells. With those others on them.
 fn cells_of_fewer(train: &Problem, best: &Fit) -> Option<(Problem, Fit)> {
-    if best.effects.len() < 2 {
+    let left = best.misfit / train.rows().max(1) as f64;
+    if best.effects.len() < 2 || left > NEARLY_NOISE {
         return None;
     }
     let fewer = (0..best.effects.len()).filter_map(|place| {
