@@ -64,7 +64,7 @@ impl Cause for AsymmetricFriction {
         vec![vec![0.02]]
     }
     fn begun_anew(&self, values: &[f64], _scale: &Scale) -> Option<Vec<f64>> {
-        // A joint of two populations has a minimum of its own for every place where asymmetry brings one upon the other.
+        // Contacts let go one by one, and a refit ends where the next one would have to: half way, as a rule.
         Some(vec![(2.0 * values[0]).clamp(-FARTHEST, FARTHEST)])
     }
 }

@@ -200,15 +200,20 @@ mod tests {
     use crate::identify::{Form, baseline};
     use crate::record::Record;
 
-    #[test]
-    fn a_rival_that_no_probability_supports_is_none() {
-        let displacement: Vec<f64> = (0..400_000).map(|i| (0.1 * f64::from(i)).sin()).collect();
+    /// A record of a sine, of so many samples.
+    fn of_samples(count: i32) -> Problem {
+        let displacement: Vec<f64> = (0..count).map(|i| (0.1 * f64::from(i)).sin()).collect();
         let record = Record {
             force: displacement.clone(),
             displacement,
             ..Record::default()
         };
-        let problem = Problem::new(Form::Stop, &[record]);
+        Problem::new(Form::Stop, &[record])
+    }
+
+    #[test]
+    fn a_rival_that_no_probability_supports_is_none() {
+        let problem = of_samples(400_000);
         let best = Fit {
             // Beyond scatter as much as anything brings here.
             misfit: 1.02 * problem.rows() as f64,
@@ -225,13 +230,7 @@ mod tests {
     /// Whatever the scatter: at ten to one a rival is named, at twenty to one none is.
     #[test]
     fn a_rival_of_a_tenth_of_the_probability_is_named_where_nothing_is_left() {
-        let displacement: Vec<f64> = (0..40_000).map(|i| (0.1 * f64::from(i)).sin()).collect();
-        let record = Record {
-            force: displacement.clone(),
-            displacement,
-            ..Record::default()
-        };
-        let problem = Problem::new(Form::Stop, &[record]);
+        let problem = of_samples(40_000);
         let best = Fit {
             misfit: problem.rows() as f64,
             ..baseline(&problem)

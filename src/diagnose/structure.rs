@@ -69,7 +69,7 @@ const LOUDEST: f64 = 25.0;
 
 /// Standard errors that the noise of one record may be slower than it was taken for. That of several is so in all of them by
 /// the less, the more of them told it each by itself.
-const TWO: f64 = 2.0;
+const SLOWER: f64 = 2.0;
 
 /// Bins the whitened residual by record × load level × phase (what repeats with the load), and by
 /// record × cycle (what wanders from cycle to cycle), and compares the means with the scatter
@@ -82,7 +82,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise])
     let known = noise.to_vec();
     // One record may lend another its noise.
     let told = (0..noise.len()).filter(|&k| !noise[..k].contains(&noise[k]));
-    let errors = TWO / (told.count().max(1) as f64).sqrt();
+    let errors = SLOWER / (told.count().max(1) as f64).sqrt();
     let most = noise.iter().map(|n| Noise {
         autoregression: n.most_alike(errors),
         ..*n
@@ -355,6 +355,14 @@ mod tests {
         }
     }
 
+    /// A model that predicts nothing of so many samples.
+    fn nothing(samples: usize) -> Prediction {
+        Prediction {
+            judged: vec![0.0; samples],
+            ..Prediction::default()
+        }
+    }
+
     #[test]
     fn noise_leaves_a_share_beyond_its_standard_error_once_in_six_times() {
         let time: Vec<f64> = (0..1200).map(|i| 0.01 * f64::from(i)).collect();
@@ -369,10 +377,7 @@ mod tests {
             ..Record::default()
         };
         let white = known(1_000_000);
-        let nothing = Prediction {
-            judged: vec![0.0; record.displacement.len()],
-            ..Prediction::default()
-        };
+        let nothing = nothing(record.displacement.len());
         let mut beyond = 0;
         for _ in 0..300 {
             for value in &mut record.displacement {
@@ -415,10 +420,7 @@ mod tests {
     #[test]
     fn what_rings_is_no_noise_and_noise_does_not_ring() {
         let mut random = ChaCha8Rng::seed_from_u64(20261123);
-        let nothing = Prediction {
-            judged: vec![0.0; 1200],
-            ..Prediction::default()
-        };
+        let nothing = nothing(1200);
         let mut seen = |alike: f64, loud: f64| {
             let (record, noise) = left(alike, loud, &mut random);
             let problem = Problem::new(Form::Play, &[record]);
@@ -437,10 +439,7 @@ mod tests {
     #[test]
     fn noise_slower_than_it_was_told_leaves_no_share_that_counts() {
         let mut random = ChaCha8Rng::seed_from_u64(20261129);
-        let nothing = Prediction {
-            judged: vec![0.0; 1200],
-            ..Prediction::default()
-        };
+        let nothing = nothing(1200);
         let mut counts = |samples: usize| {
             let (record, noise) = left(0.8, 0.0, &mut random);
             let told = Noise {
@@ -485,10 +484,7 @@ mod tests {
         let records: Vec<Record> = (0..2)
             .map(|k| of(deviations[k], (k == record).then_some(cycle), &mut normal))
             .collect();
-        let nothing = Prediction {
-            judged: vec![0.0; 1210],
-            ..Prediction::default()
-        };
+        let nothing = nothing(1210);
         let noise = deviations.map(|deviation| Noise {
             deviation,
             ..known(1200)
@@ -530,10 +526,7 @@ mod tests {
         }
         let mut problem = Problem::new(Form::Play, &[record]);
         problem.records[0].weight[..300].fill(0.0);
-        let nothing = Prediction {
-            judged: vec![0.0; 1200],
-            ..Prediction::default()
-        };
+        let nothing = nothing(1200);
         let seen = structure(&problem, &[nothing], &[noise]);
         assert!(seen.correlation < RANDOM, "{seen:?}");
     }
@@ -542,10 +535,7 @@ mod tests {
     #[test]
     fn a_tone_beside_known_noise_is_seen() {
         let mut random = ChaCha8Rng::seed_from_u64(20261124);
-        let nothing = Prediction {
-            judged: vec![0.0; 1200],
-            ..Prediction::default()
-        };
+        let nothing = nothing(1200);
         let mut ringing = |loud: f64| {
             let (mut record, _) = left(0.0, 0.0, &mut random);
             for (i, value) in record.displacement.iter_mut().enumerate() {

@@ -159,10 +159,8 @@ fn suiting(train: &Problem, set: &Fit) -> (Problem, Fit) {
     for _ in 0..ROUNDS {
         let mut again = now.0.clone();
         again.operators = now.0.operators.adapted(&now.1.coefficients, cells);
-        let carried = now
-            .0
-            .operators
-            .carried(&now.1.coefficients, &again.operators);
+        let coarse = &now.0.operators;
+        let carried = coarse.carried(&now.1.coefficients, &again.operators);
         let fit = suited_from(&again, &now.1, carried);
         if fit.misfit >= now.1.misfit {
             break;
@@ -200,12 +198,12 @@ mod tests {
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
-    const COUNT: usize = 6000;
+    const SAMPLES: usize = 6000;
 
     /// Ten cycles of a displacement that grows over the first two.
     fn driven() -> Vec<f64> {
         let grown = |i: f64| 2.1 * (0.0105 * i).sin() * (i / 1200.0).min(1.0);
-        (0..COUNT).map(|i| grown(i as f64)).collect()
+        (0..SAMPLES).map(|i| grown(i as f64)).collect()
     }
 
     /// Force of sliders, two thirds of which let go at nearly the same place; these shares of their limits hold upwards
@@ -229,7 +227,7 @@ mod tests {
     fn bench(force: Vec<f64>, displacement: Vec<f64>) -> Bench {
         let record = Record {
             name: "taught".to_string(),
-            time: Some((0..COUNT).map(|i| 0.0025 * i as f64).collect()),
+            time: Some((0..SAMPLES).map(|i| 0.0025 * i as f64).collect()),
             force,
             displacement,
             ..Record::default()
