@@ -1,5 +1,6 @@
 //! 95 % intervals of the values of named causes.
 
+use super::finely::marched_otherwise;
 use crate::causes::{Scale, find};
 use crate::identify::interval::student_95;
 use crate::identify::linearised::STRETCHES_OF_FACTOR;
@@ -23,7 +24,7 @@ const BLIND: f64 = 30.0;
 ///
 /// A refinement that the data do not ask for is left out of the law, yet they seldom rule it out:
 /// the interval is that of the mixture of both laws, weighed by Akaike's criterion, and
-/// reaches to the named values.
+/// reaches to the named values, and to those of a march in other steps.
 pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<(f64, f64)>>> {
     let factor = student_95(STRETCHES_OF_FACTOR - 1);
     let mut readings = vec![reading(problem, fit, 0.0)];
@@ -35,6 +36,7 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
             readings.push(reading(problem, &other, fall));
         }
     }
+    let marched = marched_otherwise(problem, fit);
     let likeliest = readings
         .iter()
         .fold(0.0_f64, |most, r| most.max(r.log_likelihood));
@@ -54,7 +56,11 @@ pub fn intervals(problem: &Problem, scale: &Scale, fit: &Fit) -> Vec<Vec<Option<
             let (lower, upper) = mixed(&parts, factor);
             // A likelier refinement may lie elsewhere altogether.
             let named = readings[0].values[effect][parameter];
-            let (lower, upper) = (lower.min(named), upper.max(named));
+            let others = marched.iter().map(|other| other[effect].values[parameter]);
+            let (lower, upper) = others.fold(
+                (lower.min(named), upper.max(named)),
+                |(lower, upper), value| (lower.min(value), upper.max(value)),
+            );
             (lower.max(glossary.lower), upper.min(glossary.upper))
         })
     };

@@ -240,7 +240,8 @@ fn assemble(
         (bench.most_left(), bench.is_read_to_the_end()),
         chi,
         (
-            probability::unlisted(&bench.train, &found, beyond_noise),
+            // Trials are as the search left them; a smoothed baseline leaves more than the one they began from.
+            probability::unlisted(&bench.train, &sober, beyond_noise),
             toned.is_some(),
         ),
     );
@@ -253,7 +254,7 @@ fn assemble(
         Verdict::Explained => (beyond_noise, beyond_noise),
         _ => (left, beyond_noise),
     };
-    let candidates = catalogue::candidates(bench, &found, &before, beyond_noise);
+    let candidates = catalogue::candidates(bench, &sober, &before, beyond_noise);
     let joint = exported::joint(&bench.whole.operators, &whole)?;
     let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
     let astray = (!goes_together).then(|| words::goes_astray(follows));

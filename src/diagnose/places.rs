@@ -118,14 +118,15 @@ impl Place {
     /// Who does as well as the named cause, best first; and what it is also called.
     pub fn rivals(&self, bench: &Bench, best: &Fit) -> Vec<String> {
         let as_well = as_well(&bench.train, best, self.brought);
-        // What values more than a rival's a law needs, the misfit has to pay for.
+        // What values more than another a law needs, be it the rival's, its misfit has to pay for.
         let cost = |acting: Option<&Acting>| {
             let free = acting.map_or(0, Acting::free);
             dispersion(&bench.train, best) * penalty(&bench.train, free)
         };
         let own = cost(best.effect(self.named));
-        let spared = |t: &Trial| (own - cost(t.own())).max(0.0);
-        let as_good = self.others().filter(|t| t.fit.misfit < as_well + spared(t));
+        let as_good = self
+            .others()
+            .filter(|t| t.fit.misfit + cost(t.own()) < as_well + own);
         let mut rivals: Vec<String> = as_good.map(|t| t.cause.name().to_string()).collect();
         let named = best.effect(self.named).zip(causes::find(self.named));
         let also = named.and_then(|(own, cause)| cause.also_called(&own.values, &bench.scale));
@@ -197,6 +198,8 @@ const SCATTER: f64 = 2.0;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::causes::Cause;
+    use crate::diagnose::search::tests::dashpot;
     use crate::identify::{Form, baseline};
     use crate::record::Record;
 
@@ -225,6 +228,52 @@ mod tests {
             assert!((-against / temperature(brought)).exp() > 0.04, "{brought}");
             assert!(behind >= MARGIN, "{brought}");
         }
+    }
+
+    /// A dashpot: a delay does as well, and pinning with five values, but not for one.
+    #[test]
+    fn what_needs_more_values_to_do_as_well_is_no_rival() {
+        let bench = dashpot(20261129);
+        let plain = baseline(&bench.train);
+        let with = |name: &str, values: &[f64]| {
+            let cause = causes::find(name).unwrap();
+            let own = Acting {
+                effect: cause.effect(),
+                values: values.to_vec(),
+            };
+            (cause, own)
+        };
+        let (_, own) = with("viscous_damping", &[1e6]);
+        let best = refit(&bench.train, &plain, vec![own]);
+        let behind = |(cause, own): (&'static dyn Cause, Acting), by: f64| {
+            let fit = Fit {
+                effects: vec![own],
+                misfit: best.misfit + by,
+                ..best.clone()
+            };
+            Trial {
+                cause,
+                evidence: 0.0,
+                plausible: true,
+                fit,
+            }
+        };
+        let delay = || with("sensor_delay", &[0.01, 0.0, 0.0]);
+        let pinning = || with("pinning", &[1e8, 1e-6, 1e-6, 1e-6, 0.7]);
+        let rivals = |trials: Vec<Trial>| {
+            let place = Place {
+                named: "viscous_damping",
+                brought: plain.misfit - best.misfit,
+                trials,
+            };
+            place.rivals(&bench, &best)
+        };
+        assert_eq!(pinning().1.free(), 5);
+        let both = vec![behind(delay(), 2.0), behind(pinning(), 2.0)];
+        assert_eq!(rivals(both), ["sensor_delay"]);
+        // Four values more are paid for.
+        let cost = dispersion(&bench.train, &best) * penalty(&bench.train, 4);
+        assert_eq!(rivals(vec![behind(pinning(), 2.0 - cost)]), ["pinning"]);
     }
 
     /// Whatever the scatter: at ten to one a rival is named, at twenty to one none is.

@@ -51,7 +51,7 @@ pub use fit::{Fit, PROSPECT, baseline, glanced, refit, refit_below, suited, with
 pub use interval::Estimated;
 pub use operators::{Form, Operators};
 pub use prepared::Prepared;
-pub use problem::{Prediction, Problem};
+pub use problem::{HAULING, Prediction, Problem, TURNS};
 pub use scatter::scatter;
 pub use score::{Score, scores};
 pub use seed::{Seed, SeedError};

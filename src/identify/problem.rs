@@ -199,10 +199,10 @@ impl Problem {
 }
 
 /// Parts of a step in which a mass is looked for: in whole steps it answers too early what shows in single samples.
-const HAULING: u32 = 2;
+pub const HAULING: u32 = 2;
 
 /// Passes through a record whose input is corrected by what the march gives, in which a cause is looked for.
-const TURNS: usize = 3;
+pub const TURNS: usize = 3;
 
 #[cfg(test)]
 mod tests {
