@@ -217,7 +217,9 @@ fn assemble(
     let mut doubles = against;
     doubles.extend(outsiders::doubles(&whole, &modelled));
     // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
-    doubles.extend(outsiders::outsiders(bench, &sober, (timed, taken_back)));
+    let outsiders = outsiders::outsiders(bench, &sober, (timed, taken_back));
+    let outside = !outsiders.is_empty();
+    doubles.extend(outsiders);
     let left_out = left_out::left_out(bench, &whole);
     if named && !left_out::bears_out(&left_out) {
         doubles.push(words::only_between(&whole.effects));
@@ -243,6 +245,7 @@ fn assemble(
             // Trials are as the search left them; a smoothed baseline leaves more than the one they began from.
             probability::unlisted(&bench.train, &sober, beyond_noise),
             toned.is_some(),
+            outside,
         ),
     );
     let causes = catalogue::named(bench, &found, &whole);

@@ -2,6 +2,7 @@
 
 use super::growing::leaves_structure;
 use super::prepare::Bench;
+use super::probability::temperature;
 use super::refinements::better;
 use super::search::Found;
 use super::trials::{SHAPES, UNREFINED, alarm, dispersion, penalty};
@@ -62,12 +63,13 @@ fn usable(bench: &Bench, timed: bool) -> Vec<&'static dyn Outsider> {
         .collect()
 }
 
-/// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring: of all
+/// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring, over the
+/// [`temperature`] of probabilities, as no law is quite true: of all
 /// where it does alone what takes several, as what they have in common is its work; else of the one in whose place it does
 /// most, of a law that stands for a single one.
 pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
     let set = &found.best.effects;
-    let margin = alarm(&bench.train);
+    let margin = alarm(&bench.train) * temperature(found.brings(&bench.train));
     let passes = |one: &dyn Outsider, k: usize| one.passes_for(set[k].effect.name());
     let all = 0..set.len();
     let alone = usable(bench, timed).into_par_iter().any(|one| {

@@ -28,14 +28,16 @@ const UNSURE: f64 = 0.1;
 /// `named` is `None` where no cause is; else whether the gain on held-out data is beyond its
 /// scatter, without which nothing counts as explained. `most` bounds `chi`, what the model leaves
 /// over the noise's variance, where the noise is known on its own; `unlisted` is the probability of
-/// something that is not in the catalogue, and `toned` is true where a tone is left that cycles do not repeat; `read` is true where the noise was taken for what the channels resolve.
+/// something that is not in the catalogue, `toned` is true where a tone is left that cycles do not repeat, and `outside` where a
+/// law outside the catalogue is likelier than no cause; `read` is true where the noise was taken for what the channels
+/// resolve.
 pub fn verdict(
     named: Option<bool>,
     before: &Structure,
     after: &Structure,
     (most, read): (Option<f64>, bool),
     chi: f64,
-    (unlisted, toned): (f64, bool),
+    (unlisted, toned, outside): (f64, bool, bool),
 ) -> Verdict {
     // Beneath what a channel resolves nobody asks what is left.
     let shows = !read || chi > 1.0;
@@ -47,7 +49,7 @@ pub fn verdict(
     let over = most.is_some_and(|most| chi > most) && (after.is_seen() || chi > THRICE);
     match (named, left || over) {
         // Noise that is told by its fast part alone may still be far less than what is left.
-        (None, false) if chi <= THRICE => Verdict::Clean,
+        (None, false) if chi <= THRICE && !outside => Verdict::Clean,
         (None, _) => Verdict::Unexplained,
         (Some(_), _) if unlisted > UNSURE => Verdict::PartlyExplained,
         (Some(true), false) => Verdict::Explained,
@@ -70,13 +72,35 @@ mod tests {
             ringing: 0.0,
             places: Vec::new(),
         };
-        let said = |most, chi| verdict(None, &random, &random, (most, false), chi, (0.0, false));
+        let said = |most, chi| {
+            let others = (0.0, false, false);
+            verdict(None, &random, &random, (most, false), chi, others)
+        };
         assert_eq!(said(Some(1.4), 15.0), Verdict::Unexplained);
         // Noise that grows with the load is known too small.
         assert_eq!(said(Some(1.4), 3.0), Verdict::Clean);
         // Where nothing repeats the noise is what is left, or its fast part, which may be far less.
         assert_eq!(said(None, 8.0), Verdict::Clean);
         assert_eq!(said(None, 15.0), Verdict::Unexplained);
+    }
+
+    /// As random as noise may be what a law outside the catalogue explains.
+    #[test]
+    fn what_another_law_explains_is_not_clean() {
+        let random = Structure {
+            share: 0.0,
+            error: 0.0,
+            significance: -9.0,
+            correlation: 0.05,
+            ringing: 0.0,
+            places: Vec::new(),
+        };
+        let said = |outside| {
+            let others = (0.0, false, outside);
+            verdict(None, &random, &random, (None, false), 1.0, others)
+        };
+        assert_eq!(said(false), Verdict::Clean);
+        assert_eq!(said(true), Verdict::Unexplained);
     }
 
     /// The grid of the dictionary leaves a pattern of a hundredth of what a noise-free channel resolves.
@@ -90,7 +114,10 @@ mod tests {
             ringing: 0.0,
             places: Vec::new(),
         };
-        let said = |read, chi| verdict(None, &pattern, &pattern, (None, read), chi, (0.0, false));
+        let said = |read, chi| {
+            let others = (0.0, false, false);
+            verdict(None, &pattern, &pattern, (None, read), chi, others)
+        };
         assert_eq!(said(true, 0.01), Verdict::Clean);
         assert_eq!(said(true, 1.5), Verdict::Unexplained);
         assert_eq!(said(false, 0.9), Verdict::Unexplained);

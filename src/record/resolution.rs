@@ -26,7 +26,12 @@ pub fn of_steps(channel: &[f64]) -> Option<f64> {
     step(channel).map(|step| step / 12.0_f64.sqrt())
 }
 
-/// The step in which a channel is read; `None` where its values are not whole multiples of one apart.
+/// Share of the samples that move from which on, if the next one moves as far, values are whole multiples apart because the
+/// channel goes straight: one that is read in steps and bends does so in half of them.
+const STRAIGHT: f64 = 0.75;
+
+/// The step in which a channel is read; `None` where its values are not whole multiples of one apart, or are because it goes
+/// straight from turn to turn, as often from sample to sample as a command is written.
 pub fn step(channel: &[f64]) -> Option<f64> {
     let largest = channel.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let mut values = channel.to_vec();
@@ -36,7 +41,20 @@ pub fn step(channel: &[f64]) -> Option<f64> {
     let least = steps.iter().copied().reduce(f64::min)?;
     let is_whole = |step: &&f64| (*step / least - (*step / least).round()).abs() < OFF;
     let whole = steps.iter().filter(is_whole).count();
-    (steps.len() > 2 && whole as f64 > WHOLE * steps.len() as f64).then_some(least)
+    let in_steps = steps.len() > 2 && whole as f64 > WHOLE * steps.len() as f64;
+    (in_steps && !goes_straight(channel, OFF * least)).then_some(least)
+}
+
+/// True where nearly every sample that moves is followed by one that moves as far, but for so much.
+fn goes_straight(channel: &[f64], but_for: f64) -> bool {
+    let moves: Vec<f64> = channel.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let moving = moves.windows(2).filter(|pair| pair[0].abs() > but_for);
+    let (mut all, mut same) = (0.0, 0.0);
+    for pair in moving {
+        all += 1.0;
+        same += f64::from((pair[1] - pair[0]).abs() <= but_for);
+    }
+    same > STRAIGHT * all
 }
 
 #[cfg(test)]
@@ -63,6 +81,15 @@ mod tests {
             assert!((least / fine * 12.0_f64.sqrt() - 1.0).abs() < 1e-3);
         }
         assert!((resolution(&smooth) / (1e-4 * rms(&smooth)) - 1.0).abs() < 1e-12);
+        // From turn to turn in as many samples each time, a twelfth of a sample's step off.
+        let turns = |i: i32| (f64::from((i + 20).rem_euclid(80)) - 40.0).abs() - 20.0;
+        let written = |i: i32| 24.459_473 * (turns(i) + 1.0 / 12.0);
+        let straight: Vec<f64> = (0..3000).map(written).collect();
+        assert_eq!(step(&straight), None);
+        // The same load slower than a converter's steps.
+        let steps = (0..3000).map(|i| (0.13 * turns(i)).round() * 1e-3);
+        let found = step(&steps.collect::<Vec<f64>>()).unwrap();
+        assert!((found / 1e-3 - 1.0).abs() < 1e-3, "{found}");
         assert_eq!(resolution(&[]), 0.0);
     }
 }
