@@ -9,7 +9,7 @@ use crate::record::cycles::span;
 use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
 use crate::record::ramps::ramped;
-use crate::record::resolution::{of_steps, resolution};
+use crate::record::resolution::{of_step, resolution, step_of_drive};
 
 /// What a drive's noise may add to the misfit of a record, in variances of the judged channel's noise, before it counts:
 /// by what the joint makes of it where that is most. A mass that answers to it was seen to take a fifth of that, and to
@@ -60,8 +60,8 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             return record.clone();
         };
         let mut record = record.clone();
-        let (drive, _) = form.channels_mut(&mut record);
-        let told = match stairs(drive) {
+        let (drive, judged) = form.channels_mut(&mut record);
+        let told = match stairs(drive, judged) {
             Some(_) => None,
             None => apart(drive, residual, noise),
         };
@@ -122,9 +122,9 @@ fn drawn(
 }
 
 /// Deviation `Δ/√12` of a drive that is read in steps and stays on each for some samples: it shows none sample by sample,
-/// and what it is off by follows the drive.
-fn stairs(drive: &[f64]) -> Option<f64> {
-    let deviation = of_steps(drive)?;
+/// and what it is off by follows the drive. `None` where the joint felt the steps.
+fn stairs(drive: &[f64], judged: &[f64]) -> Option<f64> {
+    let deviation = of_step(step_of_drive(drive, judged)?);
     (fastest(drive) < SHOWN * deviation).then_some(deviation)
 }
 
@@ -139,7 +139,7 @@ pub(super) fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
         Some(time) => fastest(drive).min(beneath_mains(time, drive).deviation),
         None => fastest(drive),
     };
-    let noise = noise.max(stairs(drive).unwrap_or(0.0));
+    let noise = noise.max(stairs(drive, judged).unwrap_or(0.0));
     let answered = noise * steepest * span(judged) / span(drive);
     let share = answered / fastest(judged).max(resolution(judged));
     [noise, share * share * judged.len() as f64]
@@ -309,6 +309,7 @@ mod tests {
         assert!(off(&calm[0].force) < 0.6 * off(&read));
         // One that goes on by a step in each sample shows what it is off by.
         let fast: Vec<f64> = read.iter().step_by(40).copied().collect();
-        assert!(stairs(&fast).is_none());
+        let answer: Vec<f64> = calm[0].displacement.iter().step_by(40).copied().collect();
+        assert!(stairs(&fast, &answer).is_none());
     }
 }

@@ -8,7 +8,7 @@ use crate::record::cycles::{rms, span};
 use crate::record::mains::beneath_mains;
 use crate::record::noise::from_differences;
 use crate::record::repeats::from_repeats;
-use crate::record::resolution::resolution;
+use crate::record::resolution::resolution_of_drive;
 use std::cmp::Ordering;
 
 /// Ratio of largest to smallest secant compliance beyond which the force-driven form is
@@ -41,7 +41,7 @@ pub fn form(records: &[Record]) -> Form {
 fn noise(records: &[Record]) -> (f64, f64) {
     let (mut force, mut displacement) = (0.0, 0.0);
     for record in records {
-        let noise = |channel: &[f64]| {
+        let noise = |channel: &[f64], answer: &[f64]| {
             // A hum on a prescribed displacement is the sensor's: it says nothing of who drives.
             let fast = match &record.time {
                 Some(time) => beneath_mains(time, channel),
@@ -54,10 +54,10 @@ fn noise(records: &[Record]) -> (f64, f64) {
             // What drifts or jumps from cycle to cycle is no noise; what is sharp in every cycle neither.
             let noise = repeated.map_or(fast, |noise| noise.deviation.min(fast));
             // What repeats to the last digit was still read by a converter.
-            noise.max(resolution(channel)) / rms(channel)
+            noise.max(resolution_of_drive(channel, answer)) / rms(channel)
         };
-        force += noise(&record.force);
-        displacement += noise(&record.displacement);
+        force += noise(&record.force, &record.displacement);
+        displacement += noise(&record.displacement, &record.force);
     }
     (force, displacement)
 }

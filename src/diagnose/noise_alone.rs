@@ -9,7 +9,7 @@ use crate::identify::{Fit, Problem, refit};
 use crate::record::Record;
 use crate::record::calm::fastest;
 use crate::record::cycles::rms;
-use crate::record::resolution::step;
+use crate::record::resolution::step_of_drive;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -127,7 +127,8 @@ impl Drives<'_> {
             let prepared = &whole.records[k];
             let (drive, judged) = (whole.channels(k).0, &predicted[k].judged);
             let true_drive: Vec<f64> = drive.iter().map(|x| x + prepared.beginning.zero).collect();
-            let (read, answered) = match step(whole.operators.form.channels(record).0) {
+            let channels = whole.operators.form.channels(record);
+            let (read, answered) = match step_of_drive(channels.0, channels.1) {
                 Some(step) => {
                     let read = true_drive.iter().map(|x| (x / step).round() * step);
                     (read.collect(), 0.0)

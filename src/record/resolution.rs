@@ -18,12 +18,51 @@ const ONE: f64 = 1e-9;
 
 /// Least deviation that noise of a channel is taken for: `1e-4` of its rms, or `Δ/√12` where it is read in steps of `Δ`.
 pub fn resolution(channel: &[f64]) -> f64 {
-    of_steps(channel).unwrap_or(0.0).max(FINEST * rms(channel))
+    let steps = step(channel).map_or(0.0, of_step);
+    steps.max(FINEST * rms(channel))
 }
 
-/// Deviation `Δ/√12` of what a channel that is read in steps of `Δ` is off by; `None` of others.
-pub fn of_steps(channel: &[f64]) -> Option<f64> {
-    step(channel).map(|step| step / 12.0_f64.sqrt())
+/// The same of a channel that drives, whose answer tells a load that goes in steps from a reading that does.
+pub fn resolution_of_drive(drive: &[f64], answer: &[f64]) -> f64 {
+    let steps = step_of_drive(drive, answer).map_or(0.0, of_step);
+    steps.max(FINEST * rms(drive))
+}
+
+/// The step in which a channel that drives is read; `None` where the answer moves with its steps, and rests with it.
+pub fn step_of_drive(drive: &[f64], answer: &[f64]) -> Option<f64> {
+    step(drive).filter(|step| !is_felt(drive, answer, OFF * step))
+}
+
+/// Deviation `Δ/√12` of what is read in steps of `Δ`.
+pub fn of_step(step: f64) -> f64 {
+    step / 12.0_f64.sqrt()
+}
+
+/// Samples from a step of the drive on in which its answer shows: a sensor may be late by one.
+const SHOWS: usize = 3;
+
+/// Share of the samples so near to steps up to which rests between them tell whether they are felt.
+const RARE: f64 = 0.6;
+
+/// True where the answer goes on near steps of the drive, larger than so much, and not between them.
+fn is_felt(drive: &[f64], answer: &[f64], but_for: f64) -> bool {
+    let (mut way, mut since) = (0.0, SHOWS);
+    let (mut near, mut gone_near, mut gone) = (0.0, 0.0, 0.0);
+    for (drive, answer) in drive.windows(2).zip(answer.windows(2)) {
+        let moves = drive[1] - drive[0];
+        since += 1;
+        if moves.abs() > but_for {
+            (way, since) = (moves.signum(), 0);
+        }
+        let goes = way * (answer[1] - answer[0]);
+        gone += goes;
+        if since < SHOWS {
+            near += 1.0;
+            gone_near += goes;
+        }
+    }
+    let share = near / drive.len().max(1) as f64;
+    share < RARE && gone_near > 0.5 * (1.0 + share) * gone.max(0.0)
 }
 
 /// Share of the samples that move from which on, if the next one moves as far, values are whole multiples apart because the
@@ -61,6 +100,23 @@ fn goes_straight(channel: &[f64], but_for: f64) -> bool {
 mod tests {
     use super::*;
     use crate::record::noise::tests::white;
+
+    /// A load that is held for twelve samples each, and one that a converter reads so.
+    #[test]
+    fn a_load_in_steps_is_felt_and_one_read_in_steps_is_not() {
+        let swings = |i: usize| 40.0 * (0.004 * i as f64).sin();
+        let held: Vec<f64> = (0..3000).map(|i| swings(i / 12 * 12).round()).collect();
+        let noise = white(3000);
+        let with = |motion: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            (0..3000).map(|i| motion(i) + 0.3 * noise[i]).collect()
+        };
+        assert_eq!(step(&held), Some(1.0));
+        assert_eq!(step_of_drive(&held, &with(&|i| held[i])), None);
+        // Late by a sample.
+        assert_eq!(step_of_drive(&held, &with(&|i| held[i.max(1) - 1])), None);
+        assert_eq!(step_of_drive(&held, &with(&swings)), Some(1.0));
+        assert!(resolution_of_drive(&held, &with(&|i| held[i])) < 0.01);
+    }
 
     #[test]
     fn what_is_read_in_steps_is_told_from_what_is_not() {
