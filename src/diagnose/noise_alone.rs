@@ -3,6 +3,7 @@
 use super::drive::{drive_noise, without_drive_noise};
 use super::prepare::{Bench, prepare};
 use super::search::Found;
+use super::smooth_drive::felt;
 use super::trials::alarm;
 use crate::identify::beginning::Beginning;
 use crate::identify::{Fit, Problem, refit};
@@ -45,7 +46,16 @@ const OWN: f64 = 0.1;
 /// drawn in turn. Checked by the tests below.
 pub(super) fn beyond_noise(records: &[Record], bench: &Bench, found: Found) -> Found {
     let form = bench.train.operators.form;
-    let noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
+    let residuals = found.baseline.residuals(&bench.whole);
+    let both = records.iter().zip(&residuals);
+    let of_drive = |(record, residual): (&Record, &Vec<f64>)| {
+        let (drive, judged) = form.channels(record);
+        match felt(drive, judged, residual) {
+            true => [0.0; 2],
+            false => drive_noise(form, record),
+        }
+    };
+    let noise: Vec<[f64; 2]> = both.map(of_drive).collect();
     if noise.iter().all(|[_, adds]| *adds < MAY) {
         return found;
     }

@@ -36,7 +36,7 @@ pub(super) fn unfelt(
 
 /// True where the judged channel followed the fastest part of a drive: by more than half of what a model makes of that,
 /// of which `residual` is left.
-fn felt(drive: &[f64], judged: &[f64], residual: &[f64]) -> bool {
+pub(super) fn felt(drive: &[f64], judged: &[f64], residual: &[f64]) -> bool {
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let of_drive = fastest_part(drive);
     let followed = product(&fastest_part(judged), &of_drive);

@@ -38,15 +38,22 @@ pub fn of_step(step: f64) -> f64 {
     step / 12.0_f64.sqrt()
 }
 
-/// Samples from a step of the drive on in which its answer shows: a sensor may be late by one.
-const SHOWS: usize = 3;
+/// Samples from a step of the drive on in which its answer shows: at once, or late by one or two.
+const SHOWS: [usize; 2] = [1, 3];
 
 /// Share of the samples so near to steps up to which rests between them tell whether they are felt.
 const RARE: f64 = 0.6;
 
 /// True where the answer goes on near steps of the drive, larger than so much, and not between them.
 fn is_felt(drive: &[f64], answer: &[f64], but_for: f64) -> bool {
-    let (mut way, mut since) = (0.0, SHOWS);
+    SHOWS
+        .iter()
+        .any(|shows| goes_on_near(drive, answer, (but_for, *shows)))
+}
+
+/// The same of answers that show in so many samples from a step on.
+fn goes_on_near(drive: &[f64], answer: &[f64], (but_for, shows): (f64, usize)) -> bool {
+    let (mut way, mut since) = (0.0, shows);
     let (mut near, mut gone_near, mut gone) = (0.0, 0.0, 0.0);
     for (drive, answer) in drive.windows(2).zip(answer.windows(2)) {
         let moves = drive[1] - drive[0];
@@ -56,7 +63,7 @@ fn is_felt(drive: &[f64], answer: &[f64], but_for: f64) -> bool {
         }
         let goes = way * (answer[1] - answer[0]);
         gone += goes;
-        if since < SHOWS {
+        if since < shows {
             near += 1.0;
             gone_near += goes;
         }
