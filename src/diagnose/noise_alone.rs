@@ -46,17 +46,19 @@ const OWN: f64 = 0.1;
 /// drawn in turn. Checked by the tests below.
 pub(super) fn beyond_noise(records: &[Record], bench: &Bench, found: Found) -> Found {
     let form = bench.train.operators.form;
+    let quiet = |noise: &[[f64; 2]]| noise.iter().all(|[_, adds]| *adds < MAY);
+    let mut noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
+    if quiet(&noise) {
+        return found;
+    }
     let residuals = found.baseline.residuals(&bench.whole);
-    let both = records.iter().zip(&residuals);
-    let of_drive = |(record, residual): (&Record, &Vec<f64>)| {
+    for ((noise, record), residual) in noise.iter_mut().zip(records).zip(&residuals) {
         let (drive, judged) = form.channels(record);
-        match felt(drive, judged, residual) {
-            true => [0.0; 2],
-            false => drive_noise(form, record),
+        if felt(drive, judged, residual) {
+            *noise = [0.0; 2];
         }
-    };
-    let noise: Vec<[f64; 2]> = both.map(of_drive).collect();
-    if noise.iter().all(|[_, adds]| *adds < MAY) {
+    }
+    if quiet(&noise) {
         return found;
     }
     let drives = Drives {

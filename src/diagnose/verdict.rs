@@ -62,16 +62,21 @@ pub fn verdict(
 mod tests {
     use super::*;
 
-    #[test]
-    fn nothing_that_is_many_times_the_known_noise_is_clean() {
-        let random = Structure {
+    /// What is left as random as noise.
+    fn random() -> Structure {
+        Structure {
             share: 0.0,
             error: 0.0,
             significance: -9.0,
             correlation: 0.05,
             ringing: 0.0,
             places: Vec::new(),
-        };
+        }
+    }
+
+    #[test]
+    fn nothing_that_is_many_times_the_known_noise_is_clean() {
+        let random = random();
         let said = |most, chi| {
             let others = (0.0, false, false);
             verdict(None, &random, &random, (most, false), chi, others)
@@ -87,14 +92,7 @@ mod tests {
     /// As random as noise may be what a law outside the catalogue explains.
     #[test]
     fn what_another_law_explains_is_not_clean() {
-        let random = Structure {
-            share: 0.0,
-            error: 0.0,
-            significance: -9.0,
-            correlation: 0.05,
-            ringing: 0.0,
-            places: Vec::new(),
-        };
+        let random = random();
         let said = |outside| {
             let others = (0.0, false, outside);
             verdict(None, &random, &random, (None, false), 1.0, others)

@@ -18,14 +18,17 @@ const ONE: f64 = 1e-9;
 
 /// Least deviation that noise of a channel is taken for: `1e-4` of its rms, or `Δ/√12` where it is read in steps of `Δ`.
 pub fn resolution(channel: &[f64]) -> f64 {
-    let steps = step(channel).map_or(0.0, of_step);
-    steps.max(FINEST * rms(channel))
+    least(channel, step(channel))
 }
 
 /// The same of a channel that drives, whose answer tells a load that goes in steps from a reading that does.
 pub fn resolution_of_drive(drive: &[f64], answer: &[f64]) -> f64 {
-    let steps = step_of_drive(drive, answer).map_or(0.0, of_step);
-    steps.max(FINEST * rms(drive))
+    least(drive, step_of_drive(drive, answer))
+}
+
+/// Least deviation of a channel that is read in such steps, or in none.
+fn least(channel: &[f64], step: Option<f64>) -> f64 {
+    step.map_or(0.0, of_step).max(FINEST * rms(channel))
 }
 
 /// The step in which a channel that drives is read; `None` where the answer moves with its steps, and rests with it.
