@@ -184,6 +184,7 @@ impl Problem {
 mod tests {
     use super::*;
     use crate::identify::rows::tests::Beside;
+    use crate::identify::{Fit, baseline, suited};
     use crate::joint::effect::{Effect, Situation, SlipLimit};
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
@@ -304,6 +305,36 @@ mod tests {
         assert!((held - 1.0 / 0.9).abs() < 1e-3, "{held}");
         // Of the four the mean plays: 1.11 less 1.06 where all of them slip, and what that softens.
         assert!(slipped - held > 0.05, "{held}, {slipped}");
+    }
+
+    /// Of stops a fit whose effects reached some cells holds stiffness there, and what was measured may be all the same: a
+    /// model without the effects, and a fit from there, lose none of it.
+    #[test]
+    fn stops_that_nothing_reaches_are_elastic() {
+        let Record {
+            force: displacement,
+            ..
+        } = driven_by_a_sine(200);
+        let force = displacement.iter().map(|u| 3.0 * u).collect();
+        let record = Record {
+            force,
+            displacement,
+            ..Record::default()
+        };
+        let problem = Problem::new(Form::Stop, &[record]);
+        let cells = problem.operators.edges.len();
+        let mut beyond = vec![0.0; problem.operators.columns()];
+        (beyond[0], beyond[1 + cells]) = (1.0, 2.0);
+        let (_, measured) = problem.channels(0);
+        let predicted = &problem.predict(&beyond, &[])[0].judged;
+        assert!(differ(predicted, measured) < 1e-12);
+        let fit = Fit {
+            coefficients: beyond,
+            ..baseline(&problem)
+        };
+        let suited = suited(&problem, &fit, Vec::new());
+        let stiffness: f64 = suited.coefficients.iter().sum();
+        assert!((stiffness - 3.0).abs() < 1e-6, "{stiffness}");
     }
 
     /// What follows the motion needs the repeated pass, what follows the force alone does not.

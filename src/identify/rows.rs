@@ -83,11 +83,8 @@ pub(super) fn each_row(
         for (value, slope) in row[first..size].iter_mut().zip(slopes) {
             *value = slope.values[k][i];
         }
-        let linear: f64 = row[..columns]
-            .iter()
-            .zip(coefficients)
-            .map(|(x, c)| x * c)
-            .sum();
+        let cells = row[1..columns].iter().zip(&coefficients[1..]);
+        let linear = row[0] * march.elastic() + cells.map(|(x, c)| x * c).sum::<f64>();
         row[size] = measured[i] - at.judged[i] - stand_off + linear;
         if let Some(white) = weighing.weigh(i, &row) {
             each(white);

@@ -106,7 +106,6 @@ impl<'a> March<'a> {
         effects: &'a [Acting],
         (cells, parts): (Cells, u32),
     ) -> Self {
-        let elastic = coefficients[0];
         let mut has = [false; 7];
         for acting in effects {
             for place in acting.places() {
@@ -119,10 +118,16 @@ impl<'a> March<'a> {
         // A spring across the joint that softens leaves the network more than the whole force.
         let across = operators.form == Form::Play && has[index(Place::BesideJoint)];
         let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)] || across;
-        let reached = match beyond {
-            true => &coefficients[1..],
-            false => &coefficients[1..=operators.edges.len()],
+        let (reached, resting) = match beyond {
+            true => coefficients[1..].split_at(coefficients.len() - 1),
+            false => coefficients[1..].split_at(operators.edges.len()),
         };
+        let elastic = coefficients[0]
+            + match operators.form {
+                Form::Play => 0.0,
+                // Of a fit whose effects reached them some of its stiffness may be there.
+                Form::Stop => resting.iter().sum(),
+            };
         let sticking = effects.iter().map(|a| a.effect.sticking(&a.values)).sum();
         let bank = Bank::new(operators.spread(reached, |c| cells == Cells::All || c != 0.0));
         let still = !has[index(Place::SlipLimit)];
@@ -164,6 +169,11 @@ impl<'a> March<'a> {
         let feeds_back = march.feeds_back();
         march.bank = march.bank.explicit(!feeds_back);
         march
+    }
+
+    /// The elastic coefficient, that of stops which nothing reaches included.
+    pub(super) fn elastic(&self) -> f64 {
+        self.elastic
     }
 
     /// True where a change of the model is carried on from sample to sample.
