@@ -4,6 +4,7 @@ use super::full_slip::full_slip;
 use crate::identify::Form;
 use crate::record::Record;
 use crate::record::calm::fastest;
+use crate::record::cut::is_cut;
 use crate::record::cycles::{rms, span};
 use crate::record::mains::beneath_mains;
 use crate::record::noise::from_differences;
@@ -17,10 +18,21 @@ const DEEP_SLIP: f64 = 8.0;
 
 /// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply that displacement
 /// has to be. Short of full slip, where every force still has its displacement, force drives if it is plainly the one
-/// with less noise.
+/// with less noise. What the end of a channel's range cuts off drove nothing: such a channel is judged if the other one
+/// may drive.
 pub fn form(records: &[Record]) -> Form {
     let (force, displacement) = noise(records);
     let deep = is_deep(records);
+    let judges_a_cut_one = |form: Form| {
+        let mut channels = records.iter().map(|record| form.channels(record));
+        channels.any(|(drive, judged)| is_cut(judged, drive))
+    };
+    if judges_a_cut_one(Form::Stop) {
+        return Form::Stop;
+    }
+    if !deep && full_slip(records).is_none() && judges_a_cut_one(Form::Play) {
+        return Form::Play;
+    }
     let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
     if deep && !force_drives() {
         return Form::Stop;
@@ -163,6 +175,22 @@ mod tests {
         let shallow = loaded(0.3, (1e-3, 2e-3));
         assert!(compliance_ratio(&shallow) < DEEP_SLIP);
         assert_eq!(form(&[shallow]), Form::Play);
+    }
+
+    /// Be its noise as it may.
+    #[test]
+    fn a_channel_that_its_range_cuts_is_judged() {
+        let mut of_sensor = loaded(0.3, (1e-3, 1e-6));
+        let mut of_cell = loaded(0.3, (1e-6, 1e-3));
+        assert_eq!(form(std::slice::from_ref(&of_sensor)), Form::Stop);
+        assert_eq!(form(std::slice::from_ref(&of_cell)), Form::Play);
+        let cut = |channel: &mut Vec<f64>, end: f64| {
+            channel.iter_mut().for_each(|x| *x = x.clamp(-end, end));
+        };
+        cut(&mut of_sensor.displacement, 0.36);
+        cut(&mut of_cell.force, 0.27);
+        assert_eq!(form(&[of_sensor]), Form::Play);
+        assert_eq!(form(&[of_cell]), Form::Stop);
     }
 
     /// A force that stays while the displacement goes on has no displacement of its own, however quiet it is.

@@ -2,6 +2,7 @@
 
 mod blended;
 pub mod calm;
+pub mod cut;
 pub mod cycles;
 pub mod evened;
 pub mod jolts;
