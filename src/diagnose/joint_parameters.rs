@@ -188,3 +188,55 @@ fn of_family(form: Form, joint: &Joint, records: &[Record], most: f64) -> Option
     let records: Vec<&Record> = records.iter().collect();
     family::fit_from(&records, &near.shape, drive, most).ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::causes::find;
+    use crate::identify::{baseline, exported};
+    use crate::joint::effect::Acting;
+
+    /// Whose limits differ by the direction, so that some of its stiffness lies beyond the range of the displacement: the
+    /// force without the cause is that of the whole joint.
+    #[test]
+    fn a_joint_driven_by_displacement_is_no_softer_without_its_cause() {
+        let displacement: Vec<f64> = (0..400).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let force = displacement.clone();
+        let mut problem = Problem::new(
+            Form::Stop,
+            &[Record {
+                force,
+                displacement,
+                ..Record::default()
+            }],
+        );
+        let cells = problem.operators.edges.len();
+        let mut coefficients = vec![0.0; problem.operators.columns()];
+        (
+            coefficients[0],
+            coefficients[cells / 2],
+            coefficients[1 + cells],
+        ) = (1.0, 1.0, 3.0);
+        let uneven = Acting {
+            effect: find("asymmetric_friction").unwrap().effect(),
+            values: vec![0.1],
+        };
+        let effects = vec![uneven];
+        let judged = problem.predict(&coefficients, &effects).remove(0).judged;
+        let largest = judged.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        problem.records[0].force = judged;
+        let fit = Fit {
+            coefficients,
+            effects,
+            ..baseline(&problem)
+        };
+        let joint = exported::joint(&problem.operators, &fit).unwrap();
+        let (estimates, _) = joint_parameters(&problem, &fit, &joint);
+        let bound = estimates.iter().find(|e| e.name == "slip_force").unwrap();
+        // Limits are a tenth larger one way: of the one cell that slips alone, that is less than a hundredth of the force.
+        assert!(
+            (bound.value / largest - 1.0).abs() < 0.01,
+            "{bound:?}, {largest}"
+        );
+    }
+}
