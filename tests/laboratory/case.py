@@ -19,6 +19,8 @@ from .scene import Scene
 FLOOR = 0.2  # the clean record must refit to this fraction of its noise
 STRAIGHT = 0.2  # of the cases go straight from sample to sample
 CLOCK = 0.1  # of the noise is what halving the rig's steps may still change
+# Scenes drawn for a case: one of a friction drop at five times the noise was once the 94th.
+ATTEMPTS = 160
 
 
 class Unreachable(Exception):
@@ -214,7 +216,7 @@ def stage_case(
     name = name or str(first.choice(pool or [*EFFECTS]))
     ratio = float(ratio if ratio is not None else np.exp(first.uniform(*np.log(span))))
     refused = []
-    for attempt in range(40):
+    for attempt in range(ATTEMPTS):
         rng = np.random.default_rng([seed, number, attempt])
         try:
             scene, share, gauge, level, kind = stage_scene(rng, (name,), ratio, noise, goes_on)
