@@ -19,7 +19,7 @@ from .scene import Scene
 FLOOR = 0.2  # the clean record must refit to this fraction of its noise
 STRAIGHT = 0.2  # of the cases go straight from sample to sample
 CLOCK = 0.1  # of the noise is what halving the rig's steps may still change
-# Scenes drawn for a case: one of a friction drop at five times the noise was once the 94th.
+# Scenes drawn for a case: for a friction drop at five times the noise ninety were once refused.
 ATTEMPTS = 160
 
 
