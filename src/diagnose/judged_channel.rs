@@ -21,7 +21,6 @@ const DEEP_SLIP: f64 = 8.0;
 /// with less noise. What the end of a channel's range cuts off drove nothing: such a channel is judged if the other one
 /// may drive.
 pub fn form(records: &[Record]) -> Form {
-    let (force, displacement) = noise(records);
     let deep = is_deep(records);
     let judges_a_cut_one = |form: Form| {
         let mut channels = records.iter().map(|record| form.channels(record));
@@ -33,6 +32,7 @@ pub fn form(records: &[Record]) -> Form {
     if !deep && full_slip(records).is_none() && judges_a_cut_one(Form::Play) {
         return Form::Play;
     }
+    let (force, displacement) = noise(records);
     let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
     if deep && !force_drives() {
         return Form::Stop;

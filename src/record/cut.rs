@@ -22,9 +22,14 @@ const STEPS: f64 = 2.0;
 pub fn is_cut(channel: &[f64], other: &[f64]) -> bool {
     let low = channel.iter().copied().fold(f64::INFINITY, f64::min);
     let high = channel.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // Written so that what is no number is not cut.
-    let moves = high > low;
-    if !moves {
+    let stands = |end: f64| {
+        channel
+            .windows(LONG)
+            .any(|few| few.iter().all(|x| *x == end))
+    };
+    // Written so that what is no number is not cut; few records stand anywhere, and of those alone a step is looked for.
+    let may_be = high > low && (stands(low) || stands(high));
+    if !may_be {
         return false;
     }
     let flat = STEPS * step(channel).unwrap_or(0.0) * span(other) / (high - low);

@@ -118,10 +118,11 @@ impl<'a> March<'a> {
         // A spring across the joint that softens leaves the network more than the whole force.
         let across = operators.form == Form::Play && has[index(Place::BesideJoint)];
         let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)] || across;
-        let (reached, resting) = match beyond {
-            true => coefficients[1..].split_at(coefficients.len() - 1),
-            false => coefficients[1..].split_at(operators.edges.len()),
+        let cells_reached = match beyond {
+            true => coefficients.len() - 1,
+            false => operators.edges.len(),
         };
+        let (reached, resting) = coefficients[1..].split_at(cells_reached);
         let elastic = coefficients[0]
             + match operators.form {
                 Form::Play => 0.0,
