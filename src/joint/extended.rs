@@ -1,5 +1,6 @@
 //! The joint with effects in any of its places: one rising scalar equation per step.
 
+mod ahead;
 mod cells;
 mod laws;
 mod ledger;
@@ -13,6 +14,7 @@ mod slopes;
 use super::density::Sliders;
 use super::effect::{Acting, Response, Situation, SlipLimit};
 use super::network::Network;
+use super::outlook::Outlook;
 use super::sensitivity::Sensitivity;
 use super::simulation::{Drive, JointError};
 pub(super) use cells::fine_cells;
@@ -34,7 +36,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// ```
 /// Both F(u) and U(u) rise, so either drive is one bracketed Newton search; where a law softens the joint so far
 /// that one falls, `search` refuses what has no answer. Slip limits are those
-/// of the last accepted situation. Where no time passes, rates and slip limits stay as they were: a
+/// of the history, and of force and displacement as the step is [foretold](Outlook) to end. Where no time passes, rates and slip limits stay as they were: a
 /// dashpot then neither lets go nor blocks the joint, and the answer to a small jump is a small one.
 ///
 /// Checked in tests/extended: equal to the exact response where nothing acts, work balance,
@@ -49,6 +51,7 @@ pub(super) struct Extended {
     limit: SlipLimit,
     laws: Laws,
     now: Situation,
+    outlook: Outlook,
     ledger: Ledger,
     /// dF/dU with rates held, and all slopes over u as the last step's equation has them.
     tangent: f64,
@@ -113,6 +116,7 @@ impl Extended {
             ledger: Ledger::new(&laws),
             laws,
             now: Situation::default(),
+            outlook: Outlook::of(0.0),
             tangent: 0.0,
             slopes: Sensitivity {
                 force: 0.0,
@@ -132,6 +136,7 @@ impl Extended {
         extended.network.begin(extended.limit);
         let start = extended.point(0.0, 0.0, true);
         extended.tangent = start.elastic / start.stretch;
+        extended.outlook = Outlook::of(start.stretch / start.load_slope);
         extended.slopes.force = start.stiffness;
         extended.slopes.displacement = start.stretch;
         extended.scratch = extended.laws.memory().to_vec();
@@ -142,11 +147,7 @@ impl Extended {
     /// Goes to `input` \[N or m\] at `time` \[s\] within `step` \[s\]; the state is as before on an
     /// error.
     pub fn advance(&mut self, time: f64, step: f64, input: f64) -> Result<Answer, JointError> {
-        let limit = if step > 0.0 {
-            self.laws.slip_limit(&self.now)
-        } else {
-            self.limit
-        };
+        let limit = self.limit_of(step, input);
         self.network.begin(limit);
         let found = self.find(time, step, input)?;
         (self.limit, self.trials) = (limit, found.trials);
@@ -215,6 +216,7 @@ impl Extended {
         let Found { slip, rising, .. } = found;
         self.rising = rising;
         let point = self.last_digit(found.point, slip, input);
+        let by_limit = self.by_limit(step, input, slip);
         let loss = self.network.accept(slip);
         self.now = Situation {
             time,
@@ -230,10 +232,13 @@ impl Extended {
             },
             dissipation: from.dissipation + loss,
         };
+        self.outlook
+            .take(step, input, point.stretch / point.load_slope);
         self.ledger.work(&self.laws, &Leg { from, to: self.now });
         self.tangent = point.elastic / point.stretch;
+        let along = self.along(&point, by_limit);
         let end = End {
-            point: &point,
+            along: &along,
             now: &self.now,
             laws: &self.laws,
             way: point.displacement - from.displacement,

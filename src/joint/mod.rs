@@ -8,6 +8,7 @@ pub mod error;
 mod extended;
 pub mod memory;
 pub mod network;
+pub mod outlook;
 pub mod parameters;
 pub mod passed;
 pub mod play;

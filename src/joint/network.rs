@@ -85,6 +85,17 @@ impl Slider {
         self.relaxed = rests.copysign(self.force);
     }
 
+    /// Lets go what stands above the limit of a step that opens; returns what that loses \[J\].
+    fn open(&mut self, limit: SlipLimit, excess: f64) -> f64 {
+        if excess > 0.0 {
+            self.relax(limit, excess);
+        } else {
+            self.relaxed = clamped(self.force, self.strength, limit);
+        }
+        let (held, left) = (self.force, self.relaxed);
+        0.5 * (held - left) * (held + left) / self.weight
+    }
+
     /// Takes the slide of an accepted step off the excess.
     fn wear(&mut self, slide: f64, limit: SlipLimit, excess: f64) {
         let kinetic = self.kinetic(limit);
@@ -95,6 +106,14 @@ impl Slider {
             self.force.abs() / kinetic,
         );
         self.open_bond = self.bond;
+    }
+}
+
+/// A limit below zero, or none at all, is no friction.
+fn not_negative(limit: SlipLimit) -> SlipLimit {
+    SlipLimit {
+        positive: limit.positive.max(0.0),
+        negative: limit.negative.max(0.0),
     }
 }
 
@@ -187,11 +206,7 @@ impl Network {
 
     /// Opens a step under `limit`: sliders above it let go at held u. Undone by the next `begin`.
     pub fn begin(&mut self, limit: SlipLimit) {
-        // A limit below zero, or none at all, is no friction.
-        let limit = SlipLimit {
-            positive: limit.positive.max(0.0),
-            negative: limit.negative.max(0.0),
-        };
+        let limit = not_negative(limit);
         if limit == self.limit && self.excess == 0.0 {
             return; // relaxed already, by the last step
         }
@@ -199,16 +214,26 @@ impl Network {
         self.let_go = 0.0;
         self.gross = 0.0;
         for slider in &mut self.sliders {
-            let held = slider.force;
-            if self.excess > 0.0 {
-                slider.relax(limit, self.excess);
-            } else {
-                slider.relaxed = clamped(held, slider.strength, limit);
-            }
-            let left = slider.relaxed;
-            self.let_go += 0.5 * (held - left) * (held + left) / slider.weight;
-            self.gross += left.abs();
+            self.let_go += slider.open(limit, self.excess);
+            self.gross += slider.relaxed.abs();
         }
+    }
+
+    /// Force \[N\], frictional work and stored energy \[J\] of a step to `slip` under another limit than that of the open
+    /// step.
+    pub fn under(&self, limit: SlipLimit, slip: f64) -> [f64; 3] {
+        let (limit, increment) = (not_negative(limit), slip - self.slip);
+        let remainder = self.elastic * slip;
+        let mut sums = [remainder, 0.0, 0.5 * remainder * slip];
+        for slider in &self.sliders {
+            let mut opened = *slider;
+            let let_go = opened.open(limit, self.excess);
+            let (stuck, force) = opened.after(increment, limit);
+            sums[0] += force;
+            sums[1] += let_go + force * (stuck - force) / slider.weight;
+            sums[2] += 0.5 * force * force / slider.weight;
+        }
+        sums
     }
 
     /// Answer at `slip` \[m\] within the open step; `rising` tells which side of a kink counts.

@@ -26,6 +26,7 @@ impl March<'_> {
             if !path_acts || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 let across = self.beside_joint(displacement, step);
                 self.tangent = tangent;
+                self.outlook.take(step, displacement, slope / joint_slope);
                 self.accept(
                     time,
                     step,

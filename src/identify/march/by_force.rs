@@ -37,6 +37,8 @@ impl March<'_> {
             let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 self.tangent = tangent;
+                self.outlook
+                    .take(step, force, displacement_slope / joint_slope);
                 let taken = self.inertia.take(step, displacement);
                 self.accept(time, step, answer);
                 return Step {

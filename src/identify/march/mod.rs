@@ -2,6 +2,7 @@
 //! sample. The judged channel it predicts is the simulation, so identification and simulation
 //! cannot disagree.
 
+mod ahead;
 mod by_displacement;
 mod by_force;
 mod places;
@@ -12,6 +13,7 @@ use super::inertia::{Carried, Inertia};
 use super::lanes::Bank;
 use super::operators::{Form, Operators, SHARED};
 use crate::joint::effect::{Acting, Place, Situation};
+use crate::joint::outlook::Outlook;
 
 /// Effects sorted by place, with the history they keep.
 pub struct March<'a> {
@@ -27,6 +29,7 @@ pub struct March<'a> {
     earlier: Option<(f64, f64)>,
     /// Of the network at the end of the last step, from where the next one's root is looked for.
     tangent: f64,
+    outlook: Outlook,
     limits: (f64, f64),
     /// Where force drives: where the displacement does, its acceleration is measured.
     inertia: Inertia,
@@ -154,6 +157,7 @@ impl<'a> March<'a> {
             last: Situation::default(),
             earlier: None,
             tangent: elastic,
+            outlook: Outlook::of(elastic),
             limits: (1.0, 1.0),
             inertia: match operators.form {
                 Form::Play => Inertia::of(effects, parts),
@@ -169,6 +173,7 @@ impl<'a> March<'a> {
         };
         let feeds_back = march.feeds_back();
         march.bank = march.bank.explicit(!feeds_back);
+        march.outlook = march.at_rest();
         march
     }
 
@@ -250,7 +255,7 @@ impl<'a> March<'a> {
 
     /// Takes one sample: the true input channel of the form, force [N] or displacement [m].
     pub fn step(&mut self, time: f64, step: f64, input: f64) -> Step {
-        self.update_limits();
+        self.update_limits(step, input);
         match self.operators.form {
             Form::Play => self.step_force(time, step, input),
             Form::Stop => self.step_displacement(time, step, input),
@@ -319,20 +324,6 @@ impl<'a> March<'a> {
     /// Parts that a mass wants the steps of samples in.
     pub(super) fn hauling(&self) -> u32 {
         self.inertia.parts
-    }
-
-    fn update_limits(&mut self) {
-        if !self.has[index(Place::SlipLimit)] {
-            return;
-        }
-        let mut limits = (1.0, 1.0);
-        for (acting, memory) in self.effects.iter().zip(&self.memories) {
-            if acting.acts_at(Place::SlipLimit) {
-                let limit = acting.effect.slip_limit(&acting.values, &self.last, memory);
-                limits = (limits.0 * limit.positive, limits.1 * limit.negative);
-            }
-        }
-        self.limits = limits;
     }
 
     /// Largest input that the grid was made for.

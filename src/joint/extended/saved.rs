@@ -4,7 +4,7 @@ use super::{Extended, JointError, Situation, SlipLimit};
 use crate::joint::sensitivity::Sensitivity;
 
 /// Numbers before the network's in a saved state.
-const SITUATION: usize = 17;
+const SITUATION: usize = 20;
 
 impl Extended {
     /// Notes the present state, to go back to; allocates nothing.
@@ -55,6 +55,7 @@ impl Extended {
             self.limit.positive,
             self.limit.negative,
         ]);
+        state.extend(self.outlook.saved());
         self.network.save(state);
         self.ledger.save(state);
         state.extend_from_slice(self.laws.memory());
@@ -83,6 +84,9 @@ impl Extended {
             by_stored,
             limit_up,
             limit_down,
+            along,
+            way,
+            came,
             rest @ ..,
         ] = state
         else {
@@ -113,6 +117,7 @@ impl Extended {
             positive: *limit_up,
             negative: *limit_down,
         };
+        self.outlook.restore([*along, *way, *came]);
         let (sliders, rest) = rest.split_at(network);
         let (account, memory) = rest.split_at(ledger);
         self.network.restore(sliders);

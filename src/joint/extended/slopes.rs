@@ -1,6 +1,6 @@
 //! Slopes of all that a step answers over its slip u, the state before the step held.
 
-use super::Point;
+use super::ahead::Along;
 use super::laws::{Law, Laws};
 use crate::joint::effect::{Place, Situation};
 use crate::joint::sensitivity::Sensitivity;
@@ -13,7 +13,7 @@ const LEAST: f64 = 1e-3;
 /// The end of a step, before the effects remember it.
 #[derive(Debug)]
 pub(super) struct End<'a> {
-    pub point: &'a Point,
+    pub along: &'a Along,
     pub now: &'a Situation,
     pub laws: &'a Laws,
     /// Displacement over the step \[m\].
@@ -28,10 +28,11 @@ pub(super) struct End<'a> {
 impl End<'_> {
     /// Slopes over u, as long as the ledger owes nothing; `scratch` has the length of a memory.
     pub fn slopes(&self, scratch: &mut [f64]) -> Sensitivity {
-        let (point, force) = (self.point, self.now.force);
-        let mut lost = self.sliding;
+        let (point, force) = (&self.along.point, self.now.force);
+        let mut lost = self.sliding + self.along.lost;
         // The network's springs take what its sliders do not, and K_1 its own.
         let mut stored = force - self.sliding + self.flexibility * force * point.load_slope;
+        stored += self.along.stored;
         for (law, memory) in self.laws.iter() {
             let (mut elastic, mut other) = (0.0, 0.0);
             for place in law.places() {
@@ -56,7 +57,7 @@ impl End<'_> {
 
     /// Slopes of the work on one law at one place, as the ledger books it \[N\].
     fn work(&self, place: Place, law: &Law, memory: &[f64]) -> (f64, f64) {
-        let (point, now) = (self.point, self.now);
+        let (point, now) = (&self.along.point, self.now);
         match place {
             Place::BesideSlip => (law.beside_slip(now.slip, memory).value, 0.0),
             Place::BesideJoint => {
@@ -98,7 +99,7 @@ impl End<'_> {
 
     /// The situation if the step had gone further by this slip \[m\].
     fn beyond(&self, slip: f64) -> Situation {
-        let (point, now) = (self.point, self.now);
+        let (point, now) = (&self.along.point, self.now);
         let way = point.stretch * slip;
         let per_time = |way: f64| if now.step > 0.0 { way / now.step } else { 0.0 };
         Situation {
