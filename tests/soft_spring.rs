@@ -1,6 +1,7 @@
 //! What acts across the contact alone, behind a soft spring in series: it is named, and its size told, in either drive.
 
 use iwan::diagnose::diagnose;
+use iwan::diagnose::findings::Verdict;
 use iwan::record::Record;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -73,4 +74,58 @@ fn what_bears_behind_a_soft_spring_is_told_from_the_spring() {
             assert!(error.abs() < 0.1, "{place}: {}", told.value);
         }
     }
+}
+
+/// Samples of a cycle, and the steps in which the sliders are followed from one to the next.
+const SAMPLES: u32 = 60;
+const FINE: u32 = 32;
+/// Force of full slip of its sliders \[N\]: sixty of 2e6 N/m up to 0.4 µm, 0.8 µm, … 24 µm.
+const FULL_SLIP: f64 = 2e6 * 4e-7 * 1830.0;
+
+/// Sixty sliders behind the spring, driven well into full slip, whose break-free forces fall as the force rises, by this
+/// share of the force of full slip.
+fn follows_force(fall: f64) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    let mut noise = move || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let most: Vec<f64> = (1..=60).map(|j| 4e-7 * f64::from(j)).collect();
+    let mut reached = [0.0_f64; 60];
+    let (mut slip, mut force) = (0.0, 0.0);
+    let mut record = Record {
+        name: "soft".to_owned(),
+        time: Some(Vec::new()),
+        ..Record::default()
+    };
+    for i in 0..20 * SAMPLES * FINE {
+        let turn = TAU * f64::from(i) / f64::from(SAMPLES * FINE);
+        let level = [0.4, 0.7, 1.0, 0.6, 0.3][(i / (4 * SAMPLES * FINE)) as usize];
+        let next = 6e-5 * level * turn.sin();
+        let share = 1.0 - fall * force / FULL_SLIP;
+        for (d, most) in reached.iter_mut().zip(&most) {
+            *d = (*d + next - slip).clamp(-most * share, most * share);
+        }
+        slip = next;
+        force = 2e6 * reached.iter().sum::<f64>() + 2e6 * slip;
+        if i % FINE == 0 {
+            let passed = f64::from(i / FINE) / f64::from(SAMPLES);
+            record.time.get_or_insert_default().push(passed);
+            record.force.push(force + 4.0 * noise());
+            record.displacement.push(slip + force / SERIES);
+        }
+    }
+    record
+}
+
+/// Beside a spring that was held to be a part of the network it had a second cause.
+#[test]
+fn friction_that_follows_the_force_behind_a_soft_spring_is_named_alone() {
+    let findings = diagnose(&[follows_force(0.1)], |_| ()).unwrap();
+    let names: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names, ["normal_load_variation"]);
+    assert_eq!(findings.verdict, Verdict::Explained);
+    let told = &findings.causes[0].parameters;
+    let told = told.iter().find(|p| p.name == "force_sensitivity").unwrap();
+    let size = -0.1 / FULL_SLIP;
+    let (low, high) = told.interval.unwrap();
+    assert!(low < size && size < high, "{:?} for {size}", told.interval);
+    assert!((told.value / size - 1.0).abs() < 0.05, "{}", told.value);
 }
