@@ -134,6 +134,27 @@ fn the_knee_behind_a_turn_is_no_spark() {
     assert_eq!(found, [5511]);
 }
 
+/// A sweep that ends at nine samples a period: most of it is smooth, and both sides foretell the last tips to lie
+/// elsewhere. What had been written over them sent the joint to loads that no sensor had read.
+#[test]
+fn the_tips_at_the_end_of_a_sweep_are_no_sparks() {
+    let mut random = ChaCha8Rng::seed_from_u64(23);
+    let mut turn = 0.0;
+    let mut channel: Vec<f64> = (0..1850)
+        .map(|i| {
+            turn += std::f64::consts::TAU / 80.0 * (80.0_f64 / 9.0).powf(f64::from(i) / 1850.0);
+            100.0 * turn.sin() + 0.1 * normal(&mut random)
+        })
+        .collect();
+    let found = |channel: &[f64]| -> Vec<usize> {
+        let found = outliers(channel, Neighbours::Line);
+        found.iter().map(|o| o.0).collect()
+    };
+    assert!(found(&channel).is_empty(), "{:?}", found(&channel));
+    channel[411] += 200.0;
+    assert_eq!(found(&channel), vec![411]);
+}
+
 /// What was written over a sample that was struck out does not matter, to it or to its neighbours, in
 /// noise that is whitened.
 #[test]

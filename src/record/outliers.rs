@@ -34,6 +34,11 @@ const FEW: f64 = 0.03;
 /// Samples about a judged one whose deviations are compared with its own.
 const AROUND: usize = 12;
 
+/// Share of a deviation from which another one is like it, and how many of those about a sample tell that it does not stand
+/// alone: of a wave of nine samples a period both sides foretell the tips, and nothing else, to lie elsewhere.
+const LIKE: f64 = 1.0 / 3.0;
+const COMPANY: usize = 3;
+
 /// Levels of the drive that are told apart, each on its way up and on its way down.
 const LEVELS: usize = 20;
 
@@ -196,27 +201,34 @@ pub fn outliers(channel: &[f64], neighbours: Neighbours) -> Vec<(usize, f64)> {
     let largest = channel.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let rounding = ROUNDING * largest;
     let usual = typical(deviations.iter().map(|d| d.abs()).collect());
+    // A sharp bend lies beyond what its sides foretell, and on the other side of its chord.
+    let bends = |k: usize| {
+        let (before, after) = (k + reach - APART - 1, k + reach + APART + 1);
+        let off_chord = channel[k + reach] - 0.5 * (channel[before] + channel[after]);
+        off_chord * deviations[k].signum() <= OFF_CHORD * deviations[k].abs()
+    };
+    // As many at an end, where they lie to one side.
+    let about = |k: usize, reach: usize| {
+        let last = deviations.len().saturating_sub(2 * reach + 1);
+        let from = k.saturating_sub(reach).min(last);
+        from..(from + 2 * reach + 1).min(deviations.len())
+    };
     let mut found: Vec<(usize, f64)> = (0..deviations.len())
         .filter(|&k| deviations[k].abs() > (ALONE * usual).max(rounding))
         // Where the sides differ by more than the sample does from one of them, that side holds it:
         // next to the tip of a noiseless triangle its own side is off by rounding only.
         .filter(|&k| (sides[k].0 - sides[k].1).abs() < deviations[k].abs())
-        // A sharp bend lies beyond what its sides foretell, and on the other side of its chord.
+        .filter(|&k| !bends(k))
         .filter(|&k| {
-            let (before, after) = (k + reach - APART - 1, k + reach + APART + 1);
-            let off_chord = channel[k + reach] - 0.5 * (channel[before] + channel[after]);
-            off_chord * deviations[k].signum() > OFF_CHORD * deviations[k].abs()
+            let others = about(k, AROUND).filter(|j| j.abs_diff(k) > APART);
+            let others = others.map(|j| deviations[j].abs()).collect();
+            deviations[k].abs() > ALONE * quantile(others, 0.75)
         })
         .filter(|&k| {
-            let (from, to) = (
-                k.saturating_sub(AROUND),
-                (k + AROUND + 1).min(deviations.len()),
-            );
-            let about: Vec<f64> = (from..to)
-                .filter(|j| j.abs_diff(k) > APART)
-                .map(|j| deviations[j].abs())
-                .collect();
-            deviations[k].abs() > ALONE * quantile(about, 0.75)
+            let (all, like) = (about(k, 2 * AROUND), LIKE * deviations[k].abs());
+            let alike =
+                all.filter(|&j| j.abs_diff(k) > APART + ASKED && deviations[j].abs() > like);
+            neighbours == Neighbours::Level || alike.filter(|&j| !bends(j)).count() < COMPANY
         })
         .map(|k| match neighbours {
             Neighbours::Level => (k + reach, 0.5 * (sides[k].0 + sides[k].1)),
