@@ -101,9 +101,6 @@ impl Effect for NormalLoadVariation {
     fn sees_energy(&self) -> bool {
         false
     }
-    fn follows_load(&self) -> bool {
-        true
-    }
     fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
         let of_force = change(values, OF_FORCE, last.force);
         let of_displacement = change(values, OF_DISPLACEMENT, last.displacement);

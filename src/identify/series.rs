@@ -42,11 +42,10 @@ impl Effect for SeriesCompliance {
 /// Share of the small-amplitude compliance that a fit starts with outside the network.
 const SHARE: f64 = 0.02;
 
-/// True where the split of the compliance shows: an effect works against the slip itself, or the break-free forces of a
-/// joint whose displacement is prescribed change within the stroke, and the spring takes up what they let go. Where they
-/// change with the rate or by wear the split shows as well, but little.
+/// True where the split of the compliance shows: an effect works against the slip itself, or changes the break-free
+/// forces of a joint whose displacement is prescribed, where the spring takes up what they let go.
 pub fn shows(form: Form, effects: &[Acting]) -> bool {
-    let limits = |a: &Acting| form == Form::Stop && a.effect.follows_load();
+    let limits = |a: &Acting| form == Form::Stop && a.acts_at(Place::SlipLimit);
     effects
         .iter()
         .any(|a| a.acts_at(Place::BesideSlip) || limits(a))

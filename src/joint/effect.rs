@@ -189,10 +189,6 @@ pub trait Effect: Send + Sync {
     fn sees_energy(&self) -> bool {
         true
     }
-    /// [`Place::SlipLimit`]: true where the limit follows the force or the displacement.
-    fn follows_load(&self) -> bool {
-        false
-    }
     /// [`Place::SlipLimit`]: share by which each contact of the network that rests holds more than
     /// once it slides, see [`sticking`](super::sticking).
     fn sticking(&self, _values: &[f64]) -> f64 {
