@@ -115,7 +115,7 @@ fn follows_force(fall: f64) -> Record {
     record
 }
 
-/// Beside a spring that was held to be a part of the network it had a second cause.
+/// Limits of the step's end had a second cause here, beside a spring that is held to be a part of the network.
 #[test]
 fn friction_that_follows_the_force_behind_a_soft_spring_is_named_alone() {
     let findings = diagnose(&[follows_force(0.1)], |_| ()).unwrap();

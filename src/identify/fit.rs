@@ -190,10 +190,7 @@ pub fn glanced(problem: &Problem, start: &Fit, effects: Vec<Acting>, count: usiz
 /// Refits with the spring in series among the unknowns where it shows, first without it.
 fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> Fit {
     let mut coefficients = start.coefficients.clone();
-    let compliance = match (
-        series::shows(problem.operators.form, &effects),
-        start.series,
-    ) {
+    let compliance = match (series::shows(&effects), start.series) {
         (true, Some(compliance)) => compliance,
         (true, None) => {
             let fit = refine(problem, coefficients, effects, steps);

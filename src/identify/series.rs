@@ -42,13 +42,9 @@ impl Effect for SeriesCompliance {
 /// Share of the small-amplitude compliance that a fit starts with outside the network.
 const SHARE: f64 = 0.02;
 
-/// True where the split of the compliance shows: an effect works against the slip itself, or changes the break-free
-/// forces of a joint whose displacement is prescribed, where the spring takes up what they let go.
-pub fn shows(form: Form, effects: &[Acting]) -> bool {
-    let limits = |a: &Acting| form == Form::Stop && a.acts_at(Place::SlipLimit);
-    effects
-        .iter()
-        .any(|a| a.acts_at(Place::BesideSlip) || limits(a))
+/// True where the split of the compliance shows: an effect works against the slip itself.
+pub fn shows(effects: &[Acting]) -> bool {
+    effects.iter().any(|a| a.acts_at(Place::BesideSlip))
 }
 
 /// The compliance to start from, taken out of the network's own where its form is linear in it.

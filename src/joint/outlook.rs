@@ -10,9 +10,11 @@ use super::simulation::Drive;
 /// has two rates late by two different times, which no joint explains. Those of the end that is foretold,
 ///
 /// ```text
-/// F_j + ΔF, U + c ΔF    under a force            F_j + ΔU/c, U + ΔU    under a displacement
+/// F_j + ΔF, U + c ΔF
 /// ```
-/// are off by the second order. c is dU/dF_j along the last step, or while all sticks where the input turns.
+/// are off by the second order under a prescribed force. Under a prescribed displacement the limits stay those of the
+/// beginning: beside a soft spring that is held to be a part of the network those of the end leave more, and a spring that
+/// is fitted apart for their sake makes a second cause of them. c is dU/dF_j along the last step, or while all sticks where the input turns.
 /// Checked in tests/step_size.rs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlook {
@@ -57,15 +59,12 @@ impl Outlook {
             true => self.sticking,
             false => self.along,
         };
-        let (force, displacement) = match drive {
-            Drive::Force => (way, way * compliance),
-            Drive::Displacement => (way / compliance, way),
-        };
-        if step <= 0.0 || !force.is_finite() || !displacement.is_finite() {
+        let displacement = way * compliance;
+        if drive == Drive::Displacement || step <= 0.0 || !displacement.is_finite() {
             return *last;
         }
         Situation {
-            force: last.force + force,
+            force: last.force + way,
             displacement: last.displacement + displacement,
             ..*last
         }
@@ -101,8 +100,7 @@ mod tests {
         };
         assert_eq!(ends(Drive::Force, 0.1, 13.0), [13.0, 13.0]);
         assert_eq!(ends(Drive::Force, 0.1, 6.0), [6.0, 5.0]);
-        assert_eq!(ends(Drive::Displacement, 0.1, 14.0), [12.0, 11.0]);
-        assert_eq!(ends(Drive::Displacement, 0.1, 9.0), [8.0, 6.0]);
+        assert_eq!(ends(Drive::Displacement, 0.1, 14.0), [10.0, 7.0]);
         assert_eq!(ends(Drive::Force, 0.0, 13.0), [10.0, 7.0]);
         // A jump says where the input is and not how the joint gives way; nor does a joint that nothing holds.
         let mut jumped = outlook;
