@@ -149,7 +149,7 @@ pub(super) mod tests {
         }
     }
 
-    /// A load that presses the contacts together.
+    /// A load, and a displacement, that press the contacts together.
     pub(in crate::identify) struct Pressed;
 
     impl Effect for Pressed {
@@ -163,7 +163,7 @@ pub(super) mod tests {
             &[]
         }
         fn slip_limit(&self, values: &[f64], last: &Situation, _memory: &[f64]) -> SlipLimit {
-            SlipLimit::either_way(1.0 + values[0] * last.force)
+            SlipLimit::either_way(1.0 + values[0] * last.force + values[1] * last.displacement)
         }
     }
 
@@ -173,35 +173,41 @@ pub(super) mod tests {
     fn a_joint_goes_on_as_it_stood_whatever_its_limits_follow() {
         let bears = |i: usize| 800.0 * (std::f64::consts::TAU * i as f64 / 100.0).sin();
         let long: Vec<f64> = (0..=1200).map(bears).collect();
-        let (before, after) = (&long[..=700], &long[700..]);
         let whole = Problem::new(Form::Play, &[record(&long)]);
-        let records = [record(before), record(after)];
-        let parted = Problem::new(Form::Play, &records);
-        let virgin = vec![Beginning::default(); 2];
-        let on = in_order(&parted, &virgin[0], &[false; 2]);
-        let mut parted = begun(&parted, &on);
-        parted.wears_on = true;
         let mut joint = vec![1e-10; whole.operators.columns()];
         joint[0] = 1e-9;
         let pressed = || {
             vec![Acting {
                 effect: &Pressed,
-                values: vec![3e-4],
+                values: vec![3e-4, 1e5],
             }]
         };
-        for effects in [Vec::new(), pressed()] {
-            let tail = &whole.predict(&joint, &effects)[0].judged[700..];
-            let one = &parted.predict(&joint, &effects)[1].judged;
-            let off = one.iter().zip(tail).map(|(a, b)| (a - b).abs());
-            let off = off.fold(0.0, f64::max);
-            let largest = tail.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            assert!(off < 1e-9 * largest, "{} effects: {off}", effects.len());
-            // In records of virgin joints it is another.
-            let mut anew = Problem::new(Form::Play, &records);
-            anew.operators = parted.operators.clone();
-            let other = &anew.predict(&joint, &effects)[1].judged;
-            let off = other.iter().zip(tail).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f64::max) > 1e-3 * largest);
+        // At rest and on the way down; nothing at work, and limits that go where the step does.
+        for cut in [700, 740] {
+            let records = [record(&long[..=cut]), record(&long[cut..])];
+            let parted = Problem::new(Form::Play, &records);
+            let virgin = vec![Beginning::default(); 2];
+            let on = in_order(&parted, &virgin[0], &[false; 2]);
+            let mut parted = begun(&parted, &on);
+            parted.wears_on = true;
+            for effects in [Vec::new(), pressed()] {
+                let tail = &whole.predict(&joint, &effects)[0].judged[cut..];
+                let one = &parted.predict(&joint, &effects)[1].judged;
+                let off = one.iter().zip(tail).map(|(a, b)| (a - b).abs());
+                let off = off.fold(0.0, f64::max);
+                let largest = tail.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                assert!(
+                    off < 1e-9 * largest,
+                    "{cut}, {} effects: {off}",
+                    effects.len()
+                );
+                // In records of virgin joints it is another.
+                let mut anew = Problem::new(Form::Play, &records);
+                anew.operators = parted.operators.clone();
+                let other = &anew.predict(&joint, &effects)[1].judged;
+                let off = other.iter().zip(tail).map(|(a, b)| (a - b).abs());
+                assert!(off.fold(0.0, f64::max) > 1e-3 * largest);
+            }
         }
     }
 

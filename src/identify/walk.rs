@@ -101,7 +101,7 @@ mod tests {
         let coefficients = vec![1.0; whole.operators.columns()];
         let effects = [Acting {
             effect: &Pressed,
-            values: vec![0.5],
+            values: vec![0.5, 0.0],
         }];
         let forces = |problem: &Problem, effects: &[Acting]| {
             problem.predict(&coefficients, effects)[0].judged.clone()

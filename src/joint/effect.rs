@@ -180,8 +180,8 @@ pub trait Effect: Send + Sync {
     }
     /// Takes an accepted sample into the history.
     fn remember(&self, _values: &[f64], _now: &Situation, _memory: &mut [f64]) {}
-    /// [`Place::SlipLimit`]: multipliers from the history and the last accepted situation, its force and displacement
-    /// as [foretold](super::outlook) for the end of the step.
+    /// [`Place::SlipLimit`]: multipliers from the history and the last accepted situation; under a prescribed force its
+    /// force and displacement are those [foretold](super::outlook) for the end of the step.
     fn slip_limit(&self, _values: &[f64], _last: &Situation, _memory: &[f64]) -> SlipLimit {
         SlipLimit::UNCHANGED
     }

@@ -36,8 +36,9 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// ```
 /// Both F(u) and U(u) rise, so either drive is one bracketed Newton search; where a law softens the joint so far
 /// that one falls, `search` refuses what has no answer. Slip limits are those
-/// of the history, and of force and displacement as the step is [foretold](Outlook) to end. Where no time passes, rates and slip limits stay as they were: a
-/// dashpot then neither lets go nor blocks the joint, and the answer to a small jump is a small one.
+/// of the history, and of force and displacement: as they were, or under a prescribed force as the step is
+/// [foretold](Outlook) to end. Where no time passes, rates and slip limits stay as they were: a dashpot then neither lets
+/// go nor blocks the joint, and the answer to a small jump is a small one.
 ///
 /// Checked in tests/extended: equal to the exact response where nothing acts, work balance,
 /// closed forms of single effects, saved and restored state.
@@ -56,7 +57,6 @@ pub(super) struct Extended {
     /// dF/dU with rates held, and all slopes over u as the last step's equation has them.
     tangent: f64,
     slopes: Sensitivity,
-    input: f64,
     /// Direction of the last step that moved.
     rising: bool,
     /// Trials of the slip that the last step took.
@@ -125,7 +125,6 @@ impl Extended {
                 dissipation: 0.0,
                 stored_energy: 0.0,
             },
-            input: 0.0,
             rising: true,
             trials: 0,
             scratch: Vec::new(),
@@ -254,7 +253,6 @@ impl Extended {
             self.slopes.stored_energy += self.slopes.dissipation;
             self.slopes.dissipation = 0.0;
         }
-        self.input = input;
     }
 
     /// The accepted state; the driven quantity is the input itself.

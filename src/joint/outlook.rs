@@ -12,9 +12,11 @@ use super::simulation::Drive;
 /// ```text
 /// F_j + ΔF, U + c ΔF
 /// ```
-/// are off by the second order under a prescribed force. Under a prescribed displacement the limits stay those of the
-/// beginning: beside a soft spring that is held to be a part of the network those of the end leave more, and a spring that
-/// is fitted apart for their sake makes a second cause of them. c is dU/dF_j along the last step, or while all sticks where the input turns.
+/// are off by the second order under a prescribed force; c is dU/dF_j along the last step, or while all sticks where the
+/// input turns. Under a prescribed displacement the limits stay those of the beginning: beside a soft spring that is held
+/// to be a part of the network those of the end leave more, and a spring that is fitted apart for their sake makes a
+/// second cause of them.
+///
 /// Checked in tests/step_size.rs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlook {
@@ -46,15 +48,15 @@ impl Outlook {
         self.input = input;
     }
 
-    /// Way of the input in a step to `input` \[N or m\].
-    pub fn way_to(&self, input: f64) -> f64 {
-        input - self.input
+    /// The input at the end of the last step \[N or m\].
+    pub fn input(&self) -> f64 {
+        self.input
     }
 
     /// The situation with force and displacement as they will be at the end of a step to `input`; as it is where no time
     /// passes, or where nothing tells.
     pub fn ahead(&self, last: &Situation, drive: Drive, step: f64, input: f64) -> Situation {
-        let way = self.way_to(input);
+        let way = input - self.input;
         let compliance = match way * self.way < 0.0 {
             true => self.sticking,
             false => self.along,

@@ -18,9 +18,10 @@ impl March<'_> {
         Outlook::of(network + path)
     }
 
-    /// Takes the slip limits of a step to `input`.
+    /// Takes the slip limits of a step to `input`; a joint that goes on keeps them where no time passes.
     pub(super) fn update_limits(&mut self, step: f64, input: f64) {
-        if !self.has[index(Place::SlipLimit)] {
+        let kept = step <= 0.0 && self.goes_on;
+        if !self.has[index(Place::SlipLimit)] || kept {
             return;
         }
         let drive = match self.operators.form {

@@ -64,8 +64,17 @@ pub(super) struct Wear {
     dissipation: f64,
     /// Of the history of every effect what [`lasts`](crate::joint::effect::Effect::lasting).
     memories: Vec<Vec<f64>>,
-    /// Where the joint stood, if its slip limits moved: what it remembers is more than where its load turned.
-    stood: Option<(Bank, Situation)>,
+    /// Where the joint stood and was going, if its slip limits moved: what it remembers is more than where its load turned.
+    stood: Option<Stood>,
+}
+
+/// Where a joint stands, under which slip limits, and where its next step would lead.
+#[derive(Debug, Clone)]
+struct Stood {
+    bank: Bank,
+    last: Situation,
+    outlook: Outlook,
+    limits: (f64, f64),
 }
 
 /// Error of a step's equation, as a share of its input, that counts as none: a derivative by
@@ -299,14 +308,20 @@ impl<'a> March<'a> {
             memories: both
                 .map(|(a, memory)| memory[..a.effect.lasting()].to_vec())
                 .collect(),
-            stood: self.has[index(Place::SlipLimit)].then(|| (self.bank.clone(), self.last)),
+            stood: self.has[index(Place::SlipLimit)].then(|| Stood {
+                bank: self.bank.clone(),
+                last: self.last,
+                outlook: self.outlook,
+                limits: self.limits,
+            }),
         }
     }
 
     /// A joint that is worn so far, at rest or, where it `goes_on`, as it stood.
     pub(super) fn worn(mut self, wear: &Wear, goes_on: bool) -> Self {
-        if let Some((bank, last)) = wear.stood.as_ref().filter(|_| goes_on) {
-            (self.bank, self.last) = (bank.clone(), *last);
+        if let Some(stood) = wear.stood.as_ref().filter(|_| goes_on) {
+            (self.bank, self.last) = (stood.bank.clone(), stood.last);
+            (self.outlook, self.limits) = (stood.outlook, stood.limits);
             self.goes_on = true;
         }
         self.last.dissipation = wear.dissipation;

@@ -7,7 +7,7 @@ use crate::joint::simulation::Drive;
 /// Share of a step's way by which it is lengthened to see what its slip limits do then.
 const FURTHER: f64 = 1e-4;
 
-/// What a step's limits add to its answer per unit of its input, at held slip.
+/// What a step's limits add to its answer per unit of the force that drives it, at held slip.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ByLimit {
     /// Of the network's force.
@@ -27,7 +27,7 @@ pub(super) struct Along {
 }
 
 impl Extended {
-    /// Slip limits of a step: those of its foretold end; where no time passes, those of the last one.
+    /// Slip limits of a step: under a prescribed force those of its foretold end; where no time passes, those of the last one.
     pub(super) fn limit_of(&self, step: f64, input: f64) -> SlipLimit {
         if step <= 0.0 {
             return self.limit;
@@ -36,17 +36,15 @@ impl Extended {
         self.laws.slip_limit(&ahead)
     }
 
-    /// What limits that follow the input add to a step to `slip`; none where they do not follow it.
+    /// What limits that follow the force add to a step to `slip` that took the present ones; none where they do not
+    /// follow it.
     pub(super) fn by_limit(&self, step: f64, input: f64, slip: f64) -> Option<ByLimit> {
-        let further = FURTHER * self.outlook.way_to(input);
-        let (limit, other) = (
-            self.limit_of(step, input),
-            self.limit_of(step, input + further),
-        );
-        if other == limit {
+        let further = FURTHER * (input - self.outlook.input());
+        let other = self.limit_of(step, input + further);
+        if self.drive == Drive::Displacement || other == self.limit {
             return None;
         }
-        let [here, there] = [limit, other].map(|limit| self.network.under(limit, slip));
+        let [here, there] = [self.limit, other].map(|limit| self.network.under(limit, slip));
         let by = |part: usize| (there[part] - here[part]) / further;
         Some(ByLimit {
             force: by(0),
@@ -57,9 +55,9 @@ impl Extended {
 
     /// The slopes of the step that ended here, at this point.
     ///
-    /// At held slip the limits raise the network's force by `N'` per unit of the input, hence U by `c N'` with the
+    /// At held slip the limits raise the network's force by `N'` per unit of the force, hence U by `c N'` with the
     /// compliance c of the load path, and F by `(1 + k c) N'` with the stiffness k beside the joint; so the slip goes by
-    /// `du/dF = (1 − (1 + k c) N')/F'`, or `du/dU = (1 − c N')/U'`.
+    /// `du/dF = (1 − (1 + k c) N')/F'`.
     pub(super) fn along(&self, point: &Point, by: Option<ByLimit>) -> Along {
         let held = Along {
             point: *point,
@@ -77,11 +75,7 @@ impl Extended {
             compliance * by.force,
             (1.0 + stiffness * compliance) * by.force,
         );
-        let slip = match self.drive {
-            Drive::Force => (1.0 - force) / point.stiffness,
-            Drive::Displacement => (1.0 - stretch) / point.stretch,
-        };
-        let per_slip = 1.0 / slip;
+        let per_slip = point.stiffness / (1.0 - force);
         if !per_slip.is_finite() {
             return held;
         }

@@ -4,7 +4,7 @@ use super::{Extended, JointError, Situation, SlipLimit};
 use crate::joint::sensitivity::Sensitivity;
 
 /// Numbers before the network's in a saved state.
-const SITUATION: usize = 20;
+const SITUATION: usize = 19;
 
 impl Extended {
     /// Notes the present state, to go back to; allocates nothing.
@@ -39,13 +39,7 @@ impl Extended {
             now.displacement,
             now.velocity,
         ]);
-        state.extend([
-            now.slip,
-            now.slip_rate,
-            now.dissipation,
-            self.tangent,
-            self.input,
-        ]);
+        state.extend([now.slip, now.slip_rate, now.dissipation, self.tangent]);
         state.extend([
             if self.rising { 1.0 } else { -1.0 },
             self.slopes.force,
@@ -76,7 +70,6 @@ impl Extended {
             slip_rate,
             dissipation,
             tangent,
-            input,
             rising,
             by_force,
             by_displacement,
@@ -86,7 +79,7 @@ impl Extended {
             limit_down,
             along,
             way,
-            came,
+            input,
             rest @ ..,
         ] = state
         else {
@@ -105,7 +98,7 @@ impl Extended {
             slip_rate: *slip_rate,
             dissipation: *dissipation,
         };
-        (self.tangent, self.input, self.rising) = (*tangent, *input, *rising > 0.0);
+        (self.tangent, self.rising) = (*tangent, *rising > 0.0);
         self.slopes = Sensitivity {
             force: *by_force,
             displacement: *by_displacement,
@@ -117,7 +110,7 @@ impl Extended {
             positive: *limit_up,
             negative: *limit_down,
         };
-        self.outlook.restore([*along, *way, *came]);
+        self.outlook.restore([*along, *way, *input]);
         let (sliders, rest) = rest.split_at(network);
         let (account, memory) = rest.split_at(ledger);
         self.network.restore(sliders);

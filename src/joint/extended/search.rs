@@ -36,7 +36,7 @@ impl Extended {
         let root = match first {
             Ok(slip) => {
                 let found = self.found(slip, step, input, trials);
-                let held = slip == self.now.slip && input == self.input;
+                let held = slip == self.now.slip && input == self.outlook.input();
                 if held || self.rises(&found.point) {
                     return self.stable(found, time, input);
                 }
@@ -71,7 +71,7 @@ impl Extended {
 
     fn excess(&self, slip: f64, step: f64, input: f64) -> Excess {
         let start = self.network.slip();
-        let onwards = input >= self.input;
+        let onwards = input >= self.outlook.input();
         let rising = if slip == start { onwards } else { slip > start };
         let point = self.point(slip, step, rising);
         let (value, slope, gross) = match self.drive {
@@ -89,8 +89,8 @@ impl Extended {
     fn found(&self, slip: f64, step: f64, input: f64, trials: usize) -> Found {
         let rising = if slip != self.now.slip {
             slip > self.now.slip
-        } else if input != self.input {
-            input > self.input
+        } else if input != self.outlook.input() {
+            input > self.outlook.input()
         } else {
             self.rising
         };
@@ -111,7 +111,7 @@ impl Extended {
     /// The answer, if its displacement rises, or nothing moves, and all of it is a number.
     fn stable(&self, found: Found, time: f64, input: f64) -> Result<Found, JointError> {
         let point = &found.point;
-        let held = found.slip == self.now.slip && input == self.input;
+        let held = found.slip == self.now.slip && input == self.outlook.input();
         if point.stretch <= 0.0 && !held {
             return Err(self.turns_back(point, time, input));
         }
@@ -129,7 +129,7 @@ impl Extended {
     }
 
     fn refusal(&self, reason: NoRoot, time: f64, step: f64, input: f64) -> JointError {
-        let at = |slip| self.point(slip, step, input > self.input);
+        let at = |slip| self.point(slip, step, input > self.outlook.input());
         match (reason, self.drive) {
             (NoRoot::Falls { beyond, .. }, Drive::Displacement) => {
                 self.turns_back(&at(beyond), time, input)
