@@ -2,8 +2,9 @@
 
 use super::places::scatter;
 use super::refinements::refined_nearby;
-use super::trials::{ALARM, Effort, Trial, led, of_all_samples};
+use super::trials::{self, ALARM, Effort, Trial, led, of_all_samples};
 use crate::causes::{Cause, Scale};
+use crate::identify::operators::Operators;
 use crate::identify::{Fit, Problem, refit, refit_below, suited};
 
 /// Independent samples that a first look is content with. What a cause has to bring grows with a record, a hundredth
@@ -55,6 +56,29 @@ pub fn trials_of(
         Some(coarsely) => coarsely.trials_of(usable, (problem, scale), current, asked),
         None => of_all_samples(usable, problem, scale, current, asked),
     }
+}
+
+/// Trials that were made on other `cells`, beside another drive or in other noise, by these: fitted anew from where they
+/// ended as far as they come near.
+pub(super) fn trials_again(
+    (known, cells): (&[Trial], &Operators),
+    (problem, scale): (&Problem, &Scale),
+    current: &Fit,
+    asked: (Effort, f64),
+) -> Vec<Trial> {
+    let (leading, others) = known.split_at(known.len().min(1));
+    let again = |known: &Trial, bound: f64| {
+        let mut carried = known.clone();
+        carried.fit.coefficients = cells.carried(&known.fit.coefficients, &problem.operators);
+        onward((problem, scale), current, &carried, bound)
+    };
+    led(
+        (problem, scale),
+        current,
+        asked,
+        (leading.iter().collect(), others.iter().collect()),
+        (trials::BEHIND, again),
+    )
 }
 
 /// A problem with few of its samples, and a set that suits these.
@@ -115,7 +139,7 @@ impl Coarsely {
     }
 }
 
-/// A cause as few samples have told it, fitted to all where it comes near a misfit of `bound`.
+/// A cause as few samples, or other cells, have told it, fitted to all where it comes near a misfit of `bound`.
 fn onward((problem, scale): (&Problem, &Scale), current: &Fit, few: &Trial, bound: f64) -> Trial {
     let fit = match few.own() {
         None => current.clone(),

@@ -14,13 +14,7 @@ impl Investigation {
     /// True where a cause brings nothing behind the first turns: it may do the work of loads before the record, which
     /// are forgotten by then.
     pub(super) fn tells_of_first_turns_alone(&self) -> bool {
-        let behind = behind(&self.bench, |_, _| true);
-        let train = &behind.train;
-        let effects = &self.found.best.effects;
-        let best = refit(train, &self.found.best, effects.clone());
-        let margin = ALARM * dispersion(train, &best);
-        let brings = |place| suited_without(train, &best, place) - best.misfit;
-        (0..effects.len()).any(|place| brings(place) < margin)
+        tells_of_first_turns_alone(&self.bench, &self.found.best)
     }
 
     /// The same, searched anew behind the first turns of records that do not begin at zero and are without a past:
@@ -40,6 +34,16 @@ impl Investigation {
         let plain = baseline(&behind.train);
         searched(behind, (plain, None), (timed, f64::INFINITY), progress)
     }
+}
+
+/// The same of one fit.
+pub(super) fn tells_of_first_turns_alone(bench: &Bench, fit: &Fit) -> bool {
+    let behind = behind(bench, |_, _| true);
+    let train = &behind.train;
+    let best = refit(train, fit, fit.effects.clone());
+    let margin = ALARM * dispersion(train, &best);
+    let brings = |place| suited_without(train, &best, place) - best.misfit;
+    (0..fit.effects.len()).any(|place| brings(place) < margin)
 }
 
 /// The bench with the first turns of every record that is wanted, by its place and how many samples they are, as no

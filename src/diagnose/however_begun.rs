@@ -1,16 +1,18 @@
 //! Records searched however they begin: with virgin joints, with a past, or as the record before left the joint.
 
 use super::coarsely::trials;
-use super::growing::leaves_structure;
+use super::first_turns::tells_of_first_turns_alone;
+use super::growing::{leaves_structure, structure_left};
 use super::investigation::Investigation;
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
-use super::searched::searched;
+use super::search::alone;
+use super::searched::{SEARCHING, searched};
 use super::taught::left_on_own_cells;
 use super::trials::{ALARM, Effort, Trial, one_leaves, penalty};
 
 use crate::identify::beginning::{Beginning, at_zero, beginnings};
-use crate::identify::{Fit, Form, baseline};
+use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
 use rayon::prelude::*;
 
@@ -22,23 +24,60 @@ const ONCE_MORE: &str =
 pub(super) struct Virgin {
     pub(super) bench: Bench,
     pub(super) first: Fit,
-    /// Other beginnings that are worth a search.
+    /// Other beginnings that are worth a search, once they were [sought](Virgin::seek_beginnings).
     pub(super) others: Vec<Vec<Beginning>>,
     /// Every cause alone, where that was asked.
     pub(super) alone: Option<Vec<Trial>>,
 }
 
 impl Virgin {
-    pub(super) fn of(form: Form, records: &[Record]) -> Virgin {
+    /// Every cause is asked alone where records that start at zero show structure.
+    pub(super) fn of(
+        (form, records): (Form, &[Record]),
+        timed: bool,
+        progress: &mut impl FnMut(&str),
+    ) -> Virgin {
+        progress("noise and baseline");
         let virgin = vec![Beginning::default(); records.len()];
         let bench = prepare(form, records, &virgin);
         let first = baseline(&bench.train);
+        let train = &bench.train;
+        let mut inputs = (0..records.len()).map(|k| train.channels(k).0);
+        let asked =
+            inputs.all(at_zero) && bench.noise_is_repeated() && leaves_structure(train, &first);
+        let alone = asked.then(|| {
+            progress(SEARCHING);
+            alone(&bench, timed, &first)
+        });
         Virgin {
-            others: beginnings(&bench.train, &first),
             bench,
             first,
-            alone: None,
+            others: Vec::new(),
+            alone,
         }
+    }
+
+    /// Seeks the other beginnings.
+    ///
+    /// Who starts at zero has a joint without a past as a rule: where one cause leaves noise alone of such records, and
+    /// not of their first turns only, nothing is asked of what they went through before.
+    pub(super) fn seek_beginnings(&mut self) {
+        let doubted = !self.likeliest_alone().is_some_and(|t| self.does_alone(t));
+        self.others = beginnings(&self.bench.train, &self.first, doubted);
+    }
+
+    /// Of the causes that were asked alone the one that leaves least.
+    pub(super) fn likeliest_alone(&self) -> Option<&Trial> {
+        let all = self.alone.iter().flatten();
+        let own = all.filter(|t| t.plausible);
+        own.min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit))
+    }
+
+    /// True where a cause leaves noise alone, and does not tell of first turns only.
+    fn does_alone(&self, trial: &Trial) -> bool {
+        let noise_alone = self.first.misfit - structure_left(&self.bench.train, &self.first);
+        let leaves = trial.fit.misfit;
+        leaves < noise_alone && !tells_of_first_turns_alone(&self.bench, &trial.fit)
     }
 }
 
@@ -107,7 +146,7 @@ pub(super) fn made_anew(
         if begun.noise_is_repeated() && !leaves_structure(&begun.train, &plain) {
             others.remove(0);
             progress(ONCE_MORE);
-            let one = sharply_searched(begun, plain, (timed, enough), progress);
+            let one = sharply_searched(begun, (plain, None), (timed, enough), progress);
             let sought: usize = one.beginnings().map(Beginning::values).sum();
             let beyond = 2.0 * ALARM + penalty(&one.bench.train, sought);
             let near = one.found.best.misfit + beyond * one.dispersion();
@@ -126,9 +165,22 @@ pub(super) fn made_anew(
             all.push(one);
         }
     }
-    if past_is_rule {
-        let begun = prepare(form, records, &others.remove(0));
-        let one = begun_and_searched(begun, (timed, enough), progress);
+    let may_lead = all.is_empty()
+        && alone
+            .as_ref()
+            .is_some_and(|alone| !leaves_noise(&bench.train, &first, alone));
+    let explained = match may_lead {
+        true => explained_by_one((form, records), timed, &mut others),
+        false => None,
+    };
+    let explains = explained.is_some();
+    let led = match past_is_rule && !explains {
+        true => Some((prepare(form, records, &others.remove(0)), None)),
+        false => explained,
+    };
+    if let Some((begun, known)) = led {
+        let plain = baseline(&begun.train);
+        let one = sharply_searched(begun, (plain, known), (timed, enough), progress);
         if one.is_plain() && !one.bench.noise_may_be_structure() {
             return one;
         }
@@ -142,7 +194,7 @@ pub(super) fn made_anew(
         }
     }
     let gone_on = all.first().is_some_and(Investigation::goes_on);
-    if !gone_on || all[0].may_be_beaten_by(&bench) {
+    if !(gone_on || explains) || all[0].may_be_beaten_by(&bench) {
         let enough = least_enough(&all).min(enough);
         all.push(searched(bench, (first, alone), (timed, enough), progress));
     }
@@ -161,6 +213,30 @@ pub(super) fn made_anew(
     all.swap_remove(likeliest)
 }
 
+/// True where one of these causes alone leaves noise alone.
+fn leaves_noise(train: &Problem, plain: &Fit, alone: &[Trial]) -> bool {
+    one_leaves(alone, plain.misfit - structure_left(train, plain))
+}
+
+/// The records with the first of the `others` beside which one cause alone leaves noise, and every cause alone beside it:
+/// several causes of a virgin joint, which may, are less likely.
+fn explained_by_one(
+    (form, records): (Form, &[Record]),
+    timed: bool,
+    others: &mut Vec<Vec<Beginning>>,
+) -> Option<(Bench, Option<Vec<Trial>>)> {
+    let mut tried = others.iter().enumerate().map(|(k, other)| {
+        let begun = prepare(form, records, other);
+        let plain = baseline(&begun.train);
+        let known = alone(&begun, timed, &plain);
+        let one = begun.noise_is_repeated() && leaves_noise(&begun.train, &plain, &known);
+        (k, one.then_some((begun, Some(known))))
+    });
+    let (k, begun) = tried.find(|(_, begun)| begun.is_some())?;
+    others.remove(k);
+    begun
+}
+
 /// True where every record whose first reading is not zero has turns before it.
 fn has_past(beginnings: &[Beginning], at_zero: &[bool]) -> bool {
     let mut both = beginnings.iter().zip(at_zero);
@@ -174,18 +250,18 @@ fn begun_and_searched(
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     let first = baseline(&bench.train);
-    sharply_searched(bench, first, asked, progress)
+    sharply_searched(bench, (first, None), asked, progress)
 }
 
 /// What is found from a baseline, with the turns before the records as that suits them; once more where it leaves
 /// little enough only when they are known better.
 pub(super) fn sharply_searched(
     bench: Bench,
-    first: Fit,
+    from: (Fit, Option<Vec<Trial>>),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    let one = searched(bench, (first, None), (timed, enough), progress).sharpened();
+    let one = searched(bench, from, (timed, enough), progress).sharpened();
     match one.found.unasked && one.left() < enough {
         true => {
             let Investigation { bench, found } = one;
@@ -201,4 +277,53 @@ fn least_enough(all: &[Investigation]) -> f64 {
     all.iter()
         .map(Investigation::enough)
         .fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::causes::find;
+    use crate::identify::Problem;
+    use crate::joint::effect::Acting;
+    use crate::record::noise::tests::drawn;
+    use std::f64::consts::TAU;
+
+    /// A virgin joint in white noise whose limits follow the force: its first flank is a small part of what it shows.
+    fn pressed() -> Record {
+        let level = |i: usize| [0.6, 0.8, 1.0, 0.7][i / 400];
+        let mut record = Record {
+            name: "pressed".to_string(),
+            displacement: vec![0.0; 1600],
+            force: (0..1600)
+                .map(|i| level(i) * (TAU * i as f64 / 80.0).sin())
+                .collect(),
+            time: Some((0..1600).map(|i| 0.01 * f64::from(i)).collect()),
+            ..Record::default()
+        };
+        let plain = Problem::new(Form::Play, std::slice::from_ref(&record));
+        let mut joint = vec![0.02; plain.operators.columns()];
+        joint[0] = 1.0;
+        let effect = find("normal_load_variation").unwrap().effect();
+        let mut values = vec![0.0; effect.parameters().len()];
+        values[0] = 0.4;
+        let mut noise = drawn(20261130);
+        let answer = &plain.predict(&joint, &[Acting { effect, values }])[0].judged;
+        record.displacement = answer.iter().map(|u| u + 0.01 * noise()).collect();
+        record
+    }
+
+    /// What one cause leaves noise alone of is asked for no loads before it, which would take a search of their own.
+    #[test]
+    fn records_from_zero_that_one_cause_explains_are_asked_for_no_past() {
+        let records = [pressed()];
+        let mut virgin = Virgin::of((Form::Play, &records), true, &mut |_| {});
+        let doubted = beginnings(&virgin.bench.train, &virgin.first, true);
+        assert!(!doubted.is_empty());
+        virgin.seek_beginnings();
+        assert_eq!(virgin.others, Vec::<Vec<Beginning>>::new());
+        // Where nothing was asked alone, nothing speaks against a past.
+        virgin.alone = None;
+        virgin.seek_beginnings();
+        assert_eq!(virgin.others, doubted);
+    }
 }

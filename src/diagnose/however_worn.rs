@@ -9,7 +9,7 @@ use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 
 use crate::causes::Cause;
-use crate::identify::{Form, refit_below};
+use crate::identify::refit_below;
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -23,12 +23,11 @@ const RIVAL: f64 = 0.8;
 ///
 /// What leaves more than `enough` of every row, as a square of the judged channel, is not asked further.
 pub(super) fn however_worn(
-    (form, records): (Form, &[Record]),
+    (records, mut virgin): (&[Record], Virgin),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
-    progress("noise and baseline");
-    let mut virgin = Virgin::of(form, records);
+    virgin.seek_beginnings();
     if let Some(on) = worn_by_one_cause(&mut virgin, (timed, enough), progress) {
         return on;
     }
@@ -41,7 +40,7 @@ pub(super) fn however_worn(
     bench.wear_on();
     let first = anew.found.baseline.clone();
     let enough = enough.min(anew.enough());
-    let on = sharply_searched(bench, first, (timed, enough), progress);
+    let on = sharply_searched(bench, (first, None), (timed, enough), progress);
     anew.or_likelier(on)
 }
 
@@ -52,16 +51,23 @@ fn worn_by_one_cause(
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Option<Investigation> {
-    let Virgin { bench, first, .. } = virgin;
+    let Virgin {
+        bench,
+        first,
+        others,
+        alone: known,
+    } = virgin;
     let asked = bench.train.records.len() > 1
-        && virgin.others.is_empty()
+        && others.is_empty()
         && bench.noise_is_repeated()
         && leaves_structure(&bench.train, first);
     if !asked {
         return None;
     }
-    progress(SEARCHING);
-    let anew = virgin.alone.insert(alone(bench, timed, first));
+    let anew = known.get_or_insert_with(|| {
+        progress(SEARCHING);
+        alone(bench, timed, first)
+    });
     let noise_alone = first.misfit - structure_left(&bench.train, first);
     let mut on = bench.clone();
     on.wear_on();
@@ -128,7 +134,7 @@ mod tests {
     use crate::diagnose::prepare::{Bench, prepare};
     use crate::identify::beginning::Beginning;
     use crate::identify::refit;
-    use crate::identify::{Fit, Problem, baseline};
+    use crate::identify::{Fit, Form, Problem, baseline};
     use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;
     use std::f64::consts::TAU;

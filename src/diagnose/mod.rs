@@ -216,11 +216,23 @@ fn assemble(
     let beyond_noise = of_before(structure_after.share - structure_after.error);
     let mut doubles = against;
     doubles.extend(outsiders::doubles(&whole, &modelled));
-    // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
-    let outsiders = outsiders::outsiders(bench, &sober, (timed, taken_back));
+    let (outsiders, (left_out, parameters)) = rayon::join(
+        // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
+        || outsiders::outsiders(bench, &sober, (timed, taken_back)),
+        || {
+            rayon::join(
+                || left_out::left_out(bench, &whole),
+                || {
+                    let joint = exported::joint(&bench.whole.operators, &whole)?;
+                    let told = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
+                    Ok((joint, told))
+                },
+            )
+        },
+    );
+    let (joint, (joint_parameters, said)) = parameters?;
     let outside = !outsiders.is_empty();
     doubles.extend(outsiders);
-    let left_out = left_out::left_out(bench, &whole);
     if named && !left_out::bears_out(&left_out) {
         doubles.push(words::only_between(&whole.effects));
     }
@@ -258,8 +270,6 @@ fn assemble(
         _ => (left, beyond_noise),
     };
     let candidates = catalogue::candidates(bench, &sober, &before, beyond_noise);
-    let joint = exported::joint(&bench.whole.operators, &whole)?;
-    let (joint_parameters, said) = joint_parameters::joint_parameters(&bench.whole, &whole, &joint);
     let astray = (!goes_together).then(|| words::goes_astray(follows));
     let mut notes: Vec<String> = astray.into_iter().collect();
     notes.extend(words::notes(records, bench, &whole.effects));

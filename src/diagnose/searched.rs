@@ -38,7 +38,7 @@ pub(super) fn searched(
     let again = again.map(|taught| {
         progress(KNOWN_BETTER);
         let first = baseline(&taught.bench.train);
-        let known = Some(taught.alone(timed, &first));
+        let known = Some(taught.alone((&one.found.trials, &one.bench.train.operators), &first));
         let mut bench = taught.bench;
         let found = search(&mut bench, timed, (first, known), f64::INFINITY);
         Investigation { bench, found }

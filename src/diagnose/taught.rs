@@ -1,10 +1,10 @@
 //! Records as a search of them teaches to read them: with the noise and on the cells that suit the causes it found.
 
+use super::coarsely::trials_again;
 use super::prepare::Bench;
-use super::search::alone;
-use super::trials::{ALARM, Trial, dispersion};
+use super::trials::{ALARM, Effort, Trial, dispersion};
 use crate::identify::finer::finer;
-use crate::identify::operators::COUNT;
+use crate::identify::operators::{COUNT, Operators};
 use crate::identify::{Fit, Problem, refit, suited, without};
 use crate::joint::effect::Acting;
 use crate::record::noise::Noise;
@@ -67,10 +67,12 @@ pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Taught> {
 }
 
 impl Taught {
-    /// Every cause alone beside the baseline; one that the records suit from where it was found as well.
-    pub(super) fn alone(&self, timed: bool, first: &Fit) -> Vec<Trial> {
+    /// Every cause alone beside the baseline, from where it was found before; one that the records suit from where it was
+    /// found beside others as well.
+    pub(super) fn alone(&self, known: (&[Trial], &Operators), first: &Fit) -> Vec<Trial> {
         let Bench { train, scale, .. } = &self.bench;
-        let mut trials = alone(&self.bench, timed, first);
+        let asked = (Effort::Full, f64::INFINITY);
+        let mut trials = trials_again(known, (train, scale), first, asked);
         let [one] = self.suits.as_slice() else {
             return trials;
         };

@@ -112,7 +112,7 @@ pub(super) const UNREFINED: f64 = 0.1;
 const NEAR: f64 = 0.02;
 
 /// Share of the leader's fall by which a refit may stay behind before it is given up.
-const BEHIND: f64 = 0.15;
+pub(super) const BEHIND: f64 = 0.15;
 
 /// Tries the `usable` causes beside the current set by every sample of a problem, best first; a refit without prospect of
 /// a misfit below `wanted` is given up.

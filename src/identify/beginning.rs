@@ -90,13 +90,14 @@ pub const BAND: f64 = 0.02;
 /// virgin joint's is as a rule, any part of it. The first readings themselves as the zeros are another alternative to
 /// the turns before them, however much they leave beside causes not yet known. A joint that goes on where the record
 /// before left it is one more, see [`gone_on`], and one that went through the same before each of them, see [`before_all`].
-/// `first` is the baseline of virgin joints.
-pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
+/// `first` is the baseline of virgin joints. A record whose first reading is zero is asked only where it is `doubted` that
+/// its joint is virgin: nothing but the misfit of its beginning speaks against that.
+pub fn beginnings(problem: &Problem, first: &Fit, doubted: bool) -> Vec<Vec<Beginning>> {
     let form = problem.operators.form;
     let predictions = first.predict(problem);
     let both = problem.records.par_iter().zip(&predictions);
     let nearest: Vec<Beginning> = both
-        .map(|(record, prediction)| beginning(form, record, &prediction.judged))
+        .map(|(record, prediction)| beginning((form, doubted), record, &prediction.judged))
         .collect();
     let reading = |record: &Prepared| {
         let (input, _) = record.channels(form);
@@ -106,7 +107,11 @@ pub fn beginnings(problem: &Problem, first: &Fit) -> Vec<Vec<Beginning>> {
         }
     };
     let readings = problem.records.iter().map(reading).collect();
-    let mut all = before_all(problem, gone_on(problem, nearest));
+    let on = gone_on(problem, nearest);
+    let mut all = match doubted {
+        true => before_all(problem, on),
+        false => on,
+    };
     all.push(readings);
     for zeros in zeros(problem) {
         all.extend(from_readings(problem, &zeros));
@@ -154,7 +159,7 @@ fn begins_within(share: f64, input: &[f64]) -> bool {
     input.first().is_none_or(|x| x.abs() <= share * largest)
 }
 
-fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
+fn beginning((form, doubted): (Form, bool), record: &Prepared, predicted: &[f64]) -> Beginning {
     let (input, judged) = record.channels(form);
     let forgotten = early(input);
     if forgotten == 0 {
@@ -170,7 +175,7 @@ fn beginning(form: Form, record: &Prepared, predicted: &[f64]) -> Beginning {
     };
     let (early, late) = left(predicted);
     let rest = judged.len() - forgotten;
-    let doubtful = rest > 0 && early / forgotten as f64 > DOUBTFUL * late / rest as f64;
+    let doubtful = doubted && rest > 0 && early / forgotten as f64 > DOUBTFUL * late / rest as f64;
     let offset = !at_zero(input);
     if !doubtful && !offset {
         return Beginning::default();
@@ -295,7 +300,7 @@ mod tests {
     }
 
     fn found(problem: &Problem) -> Option<Beginning> {
-        let all = beginnings(problem, &baseline(problem));
+        let all = beginnings(problem, &baseline(problem), true);
         all.first().map(|one| one[0].clone())
     }
 
@@ -329,7 +334,7 @@ mod tests {
             begun.records[0].begin(Form::Play, other);
             baseline(&begun).misfit
         };
-        let all = beginnings(&problem, &baseline(&problem));
+        let all = beginnings(&problem, &baseline(&problem), true);
         let others = all.iter().map(|one| &one[0]);
         let nearest = others.min_by(|a, b| left(a).total_cmp(&left(b))).unwrap();
         assert!((nearest.zero - 150.0).abs() < 1e-9 && nearest.turned.is_empty());

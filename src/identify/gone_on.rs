@@ -238,7 +238,7 @@ pub(super) mod tests {
         ] {
             let parts = [part(0..=cut, zeros[0]), part(cut..=1200, zeros[1])];
             let problem = Problem::new(Form::Play, &parts);
-            let told = beginnings(&problem, &baseline(&problem));
+            let told = beginnings(&problem, &baseline(&problem), true);
             let at = zeros.map(Beginning::at);
             // A sine is zero at its last turn but for its last digit.
             let goes_on = |one: &&Vec<Beginning>| {
