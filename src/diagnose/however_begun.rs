@@ -288,8 +288,8 @@ mod tests {
     use crate::record::noise::tests::drawn;
     use std::f64::consts::TAU;
 
-    /// A virgin joint in white noise whose limits follow the force: its first flank is a small part of what it shows.
-    fn pressed() -> Record {
+    /// A joint in white noise whose limits follow the force, behind loads that turned at these.
+    fn pressed(turned: &[f64]) -> Record {
         let level = |i: usize| [0.6, 0.8, 1.0, 0.7][i / 400];
         let mut record = Record {
             name: "pressed".to_string(),
@@ -300,7 +300,7 @@ mod tests {
             time: Some((0..1600).map(|i| 0.01 * f64::from(i)).collect()),
             ..Record::default()
         };
-        let plain = Problem::new(Form::Play, std::slice::from_ref(&record));
+        let plain = Problem::begun(Form::Play, std::slice::from_ref(&record), &[behind(turned)]);
         let mut joint = vec![0.02; plain.operators.columns()];
         joint[0] = 1.0;
         let effect = find("normal_load_variation").unwrap().effect();
@@ -312,10 +312,17 @@ mod tests {
         record
     }
 
+    fn behind(turned: &[f64]) -> Beginning {
+        Beginning {
+            turned: turned.to_vec(),
+            ..Beginning::default()
+        }
+    }
+
     /// What one cause leaves noise alone of is asked for no loads before it, which would take a search of their own.
     #[test]
     fn records_from_zero_that_one_cause_explains_are_asked_for_no_past() {
-        let records = [pressed()];
+        let records = [pressed(&[])];
         let mut virgin = Virgin::of((Form::Play, &records), true, &mut |_| {});
         let doubted = beginnings(&virgin.bench.train, &virgin.first, true);
         assert!(!doubted.is_empty());
@@ -325,5 +332,19 @@ mod tests {
         virgin.alone = None;
         virgin.seek_beginnings();
         assert_eq!(virgin.others, doubted);
+    }
+
+    /// Of several beginnings that one is searched first beside which one cause leaves noise, and none where none does.
+    #[test]
+    fn the_beginning_that_one_cause_explains_leads() {
+        let records = [pressed(&[1.3, -1.2])];
+        let wrong = || vec![behind(&[0.4])];
+        let mut others = vec![wrong(), vec![behind(&[1.3, -1.2])]];
+        let (bench, known) = explained_by_one((Form::Play, &records), true, &mut others).unwrap();
+        assert_eq!(bench.train.records[0].beginning, behind(&[1.3, -1.2]));
+        assert_eq!(known.unwrap()[0].cause.name(), "normal_load_variation");
+        assert_eq!(others, [wrong()]);
+        assert!(explained_by_one((Form::Play, &records), true, &mut others).is_none());
+        assert_eq!(others, [wrong()]);
     }
 }
