@@ -17,7 +17,8 @@ const SHARES: [f64; 5] = [0.35, 0.6, 0.85, 1.1, 1.5];
 const ENOUGH: usize = 1500;
 
 /// The other beginnings of the records, and the one behind a load before the tests that all records tell of, where that
-/// leaves less than virgin joints do: before the others, where it leaves less than these.
+/// leaves less than virgin joints do: before the others, where it leaves less than these. Behind one of a joint that goes on
+/// the same without such a load, whose work a cause may do.
 ///
 /// Either each record is of a joint that was made new and went through the same, or the joint of the first goes on. A
 /// single turn is sought, or two to either side of rest; records that do not begin at zero have pasts of their own.
@@ -47,6 +48,13 @@ pub(super) fn before_all(problem: &Problem, others: Vec<Vec<Beginning>>) -> Vec<
     let place = all.iter().position(|other| is_beaten(other));
     let place = place.unwrap_or(all.len());
     all.insert(place, order.beginnings(problem, &load));
+    // What a cause does may pass for a load before a joint that goes on without one.
+    if let Order::GoesOn = order {
+        let without = order.beginnings(problem, &Beginning::default());
+        if !all.contains(&without) {
+            all.insert(place + 1, without);
+        }
+    }
     all
 }
 
@@ -148,6 +156,9 @@ mod tests {
             );
             assert_eq!(found[0][0] == found[0][1], anew);
             assert_eq!(found[0][1].goes_on, !anew);
+            // A joint that goes on may have done so without a pull.
+            let without = found.get(1).map(|one| (one[0].is_virgin(), one[1].goes_on));
+            assert_eq!(without, (!anew).then_some((true, true)));
             let left = |begins: &[Beginning]| least_misfit(&begun(&problem, begins));
             let virgin = left(&[Beginning::default(), Beginning::default()]);
             assert!(left(&found[0]) < 0.7 * virgin);
