@@ -66,19 +66,28 @@ pub(super) fn trials_again(
     current: &Fit,
     asked: (Effort, f64),
 ) -> Vec<Trial> {
-    let (leading, others) = known.split_at(known.len().min(1));
-    let again = |known: &Trial, bound: f64| {
-        let mut carried = known.clone();
-        carried.fit.coefficients = cells.carried(&known.fit.coefficients, &problem.operators);
-        onward((problem, scale), current, &carried, bound)
+    let carried = |known: &Trial| {
+        let mut here = known.clone();
+        here.fit.coefficients = cells.carried(&known.fit.coefficients, &problem.operators);
+        here
     };
-    led(
-        (problem, scale),
-        current,
-        asked,
-        (leading.iter().collect(), others.iter().collect()),
-        (trials::BEHIND, again),
-    )
+    let here: Vec<Trial> = known.iter().map(carried).collect();
+    from_these(&here, (problem, scale), current, asked, trials::BEHIND)
+}
+
+/// Trials from where these ended, of which the first leads and others may stay behind by a share of its fall.
+fn from_these(
+    ended: &[Trial],
+    (problem, scale): (&Problem, &Scale),
+    current: &Fit,
+    asked: (Effort, f64),
+    behind: f64,
+) -> Vec<Trial> {
+    let leading = ended.iter().take(1).collect();
+    let others = ended.iter().skip(1).collect();
+    let onward = |one: &Trial, bound: f64| onward((problem, scale), current, one, bound);
+    let ways = (leading, others);
+    led((problem, scale), current, asked, ways, (behind, onward))
 }
 
 /// A problem with few of its samples, and a set that suits these.
@@ -125,17 +134,7 @@ impl Coarsely {
     ) -> Vec<Trial> {
         let asked = (effort, self.wanted(current, wanted));
         let few = of_all_samples(usable, &self.problem, scale, &self.current, asked);
-        let leading: Vec<&Trial> = few.iter().take(1).collect();
-        let others = few.iter().skip(1).collect();
-        let onward = |few: &Trial, bound: f64| onward((problem, scale), current, few, bound);
-        let asked = (effort, wanted);
-        led(
-            (problem, scale),
-            current,
-            asked,
-            (leading, others),
-            (BEHIND, onward),
-        )
+        from_these(&few, (problem, scale), current, (effort, wanted), BEHIND)
     }
 }
 

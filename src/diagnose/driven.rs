@@ -10,7 +10,7 @@ use super::searched::quickly_searched;
 use super::trials::{ALARM, Effort, Trial, dispersion};
 use crate::identify::beginning::Beginning;
 use crate::identify::operators::Operators;
-use crate::identify::{Form, Problem, as_driven, baseline, refit_below};
+use crate::identify::{Fit, Form, Problem, as_driven, baseline, refit_below};
 use crate::record::Record;
 
 /// Every cause alone beside another drive, and the cells that those are of.
@@ -67,15 +67,25 @@ fn train_otherwise_driven(train: &Problem) -> Problem {
     other
 }
 
+/// Misfit below which the same is likelier than a fit.
+fn likelier_below(train: &Problem, fit: &Fit) -> f64 {
+    fit.misfit - ALARM * dispersion(train, fit)
+}
+
+/// True where the causes of a fit leave less than a misfit of another problem.
+fn leaves_less(other: &Problem, fit: &Fit, misfit: f64) -> bool {
+    refit_below(other, fit, fit.effects.clone(), misfit).misfit < misfit
+}
+
 impl Virgin {
     /// True where the likeliest cause alone leaves less beside another drive, by as much as makes a model likelier: what
     /// joints without any cause leave had told which drive it is.
     fn suits_another_drive(&self) -> bool {
         self.likeliest_alone().is_some_and(|own| {
             let train = &self.bench.train;
-            let bound = own.fit.misfit - ALARM * dispersion(train, &own.fit);
+            let bound = likelier_below(train, &own.fit);
             let other = train_otherwise_driven(train);
-            refit_below(&other, &own.fit, own.fit.effects.clone(), bound).misfit < bound
+            leaves_less(&other, &own.fit, bound)
         })
     }
 }
@@ -131,8 +141,8 @@ impl Investigation {
     fn leaves_less_otherwise_driven(&self, timed: bool, known: Option<Known>) -> bool {
         let best = &self.found.best;
         let train = train_otherwise_driven(&self.bench.train);
-        let bound = best.misfit - ALARM * self.dispersion();
-        if refit_below(&train, best, best.effects.clone(), bound).misfit < bound {
+        let bound = likelier_below(&self.bench.train, best);
+        if leaves_less(&train, best, bound) {
             return true;
         }
         if !self.is_straight() && !leaves_structure(&self.bench.train, best) {

@@ -220,8 +220,13 @@ pub(super) fn leaves_structure(problem: &Problem, fit: &Fit) -> bool {
 }
 
 /// Misfit by which a set leaves more than noise alone does.
-pub(super) fn structure_left(problem: &Problem, fit: &Fit) -> f64 {
+fn structure_left(problem: &Problem, fit: &Fit) -> f64 {
     places::beyond_scatter(problem, fit) - STRUCTURE * problem.rows() as f64
+}
+
+/// Misfit below which a model leaves noise alone, of what a fit with structure leaves.
+pub(super) fn noise_alone(problem: &Problem, fit: &Fit) -> f64 {
+    fit.misfit - structure_left(problem, fit)
 }
 
 /// Misfit that one cause of several has to take away beside the others.

@@ -2,7 +2,7 @@
 
 use super::coarsely::trials;
 use super::first_turns::tells_of_first_turns_alone;
-use super::growing::{leaves_structure, structure_left};
+use super::growing::{leaves_structure, noise_alone};
 use super::investigation::Investigation;
 use super::noise_of_all::NoiseOfAll;
 use super::prepare::{Bench, prepare};
@@ -19,6 +19,9 @@ use rayon::prelude::*;
 /// Said where the records are searched with another beginning.
 const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
+
+/// What a search begins from: the baseline, and every cause alone beside it where that is known.
+type Known = (Fit, Option<Vec<Trial>>);
 
 /// Records of virgin joints before any search.
 pub(super) struct Virgin {
@@ -75,9 +78,9 @@ impl Virgin {
 
     /// True where a cause leaves noise alone, and does not tell of first turns only.
     fn does_alone(&self, trial: &Trial) -> bool {
-        let noise_alone = self.first.misfit - structure_left(&self.bench.train, &self.first);
         let leaves = trial.fit.misfit;
-        leaves < noise_alone && !tells_of_first_turns_alone(&self.bench, &trial.fit)
+        let noise = leaves < noise_alone(&self.bench.train, &self.first);
+        noise && !tells_of_first_turns_alone(&self.bench, &trial.fit)
     }
 }
 
@@ -175,12 +178,15 @@ pub(super) fn made_anew(
     };
     let explains = explained.is_some();
     let led = match past_is_rule && !explains {
-        true => Some((prepare(form, records, &others.remove(0)), None)),
+        true => {
+            let begun = prepare(form, records, &others.remove(0));
+            let plain = baseline(&begun.train);
+            Some((begun, (plain, None)))
+        }
         false => explained,
     };
-    if let Some((begun, known)) = led {
-        let plain = baseline(&begun.train);
-        let one = sharply_searched(begun, (plain, known), (timed, enough), progress);
+    if let Some((begun, from)) = led {
+        let one = sharply_searched(begun, from, (timed, enough), progress);
         if one.is_plain() && !one.bench.noise_may_be_structure() {
             return one;
         }
@@ -215,24 +221,24 @@ pub(super) fn made_anew(
 
 /// True where one of these causes alone leaves noise alone.
 fn leaves_noise(train: &Problem, plain: &Fit, alone: &[Trial]) -> bool {
-    one_leaves(alone, plain.misfit - structure_left(train, plain))
+    one_leaves(alone, noise_alone(train, plain))
 }
 
-/// The records with the first of the `others` beside which one cause alone leaves noise, and every cause alone beside it:
+/// The records with the first of the `others` beside which one cause alone leaves noise, their baseline and every cause alone:
 /// several causes of a virgin joint, which may, are less likely. A past that was sought may do a cause's work, and is not
 /// asked.
 fn explained_by_one(
     (form, records): (Form, &[Record]),
     timed: bool,
     others: &mut Vec<Vec<Beginning>>,
-) -> Option<(Bench, Option<Vec<Trial>>)> {
+) -> Option<(Bench, Known)> {
     let told = |(_, other): &(usize, &Vec<Beginning>)| !other.iter().any(Beginning::is_sought);
     let mut tried = others.iter().enumerate().filter(told).map(|(k, other)| {
         let begun = prepare(form, records, other);
         let plain = baseline(&begun.train);
         let known = alone(&begun, timed, &plain);
         let one = begun.noise_is_repeated() && leaves_noise(&begun.train, &plain, &known);
-        (k, one.then_some((begun, Some(known))))
+        (k, one.then_some((begun, (plain, Some(known)))))
     });
     let (k, begun) = tried.find(|(_, begun)| begun.is_some())?;
     others.remove(k);
@@ -259,7 +265,7 @@ fn begun_and_searched(
 /// little enough only when they are known better.
 pub(super) fn sharply_searched(
     bench: Bench,
-    from: (Fit, Option<Vec<Trial>>),
+    from: Known,
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
@@ -285,7 +291,6 @@ fn least_enough(all: &[Investigation]) -> f64 {
 mod tests {
     use super::*;
     use crate::causes::find;
-    use crate::identify::Problem;
     use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;
     use std::f64::consts::TAU;
@@ -337,13 +342,14 @@ mod tests {
         let records = [pressed(0.15)];
         let sought = || {
             vec![Beginning {
-                turned: vec![-0.4],
+                turned: vec![-0.01],
                 ..Beginning::at(0.15)
             }]
         };
         let wrong = || vec![Beginning::at(0.3)];
         let mut others = vec![sought(), wrong(), vec![Beginning::at(0.15)]];
-        let (bench, known) = explained_by_one((Form::Play, &records), true, &mut others).unwrap();
+        let (bench, (_, known)) =
+            explained_by_one((Form::Play, &records), true, &mut others).unwrap();
         assert_eq!(bench.train.records[0].beginning, Beginning::at(0.15));
         assert_eq!(known.unwrap()[0].cause.name(), "normal_load_variation");
         assert_eq!(others, [sought(), wrong()]);

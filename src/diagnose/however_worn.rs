@@ -1,7 +1,7 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
 use super::coarsely::trials_of;
-use super::growing::{FURTHER_SHARE, leaves_structure, structure_left};
+use super::growing::{FURTHER_SHARE, leaves_structure, noise_alone};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
 use super::investigation::Investigation;
 use super::search::{Found, alone};
@@ -68,7 +68,7 @@ fn worn_by_one_cause(
         progress(SEARCHING);
         alone(bench, timed, first)
     });
-    let noise_alone = first.misfit - structure_left(&bench.train, first);
+    let noise_alone = noise_alone(&bench.train, first);
     let mut on = bench.clone();
     on.wear_on();
     let wears = |cause: &dyn Cause| (timed || !cause.needs_time()) && cause.effect().lasting() > 0;

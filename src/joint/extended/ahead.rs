@@ -39,9 +39,12 @@ impl Extended {
     /// What limits that follow the force add to a step to `slip` that took the present ones; none where they do not
     /// follow it.
     pub(super) fn by_limit(&self, step: f64, input: f64, slip: f64) -> Option<ByLimit> {
+        if self.drive == Drive::Displacement {
+            return None;
+        }
         let further = FURTHER * (input - self.outlook.input());
         let other = self.limit_of(step, input + further);
-        if self.drive == Drive::Displacement || other == self.limit {
+        if other == self.limit {
             return None;
         }
         let [here, there] = [self.limit, other].map(|limit| self.network.under(limit, slip));
