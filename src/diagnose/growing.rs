@@ -1,6 +1,6 @@
 //! Sets of causes, grown forward from the baseline and from other first causes, and pruned backward.
 
-use super::coarsely::trials;
+use super::coarsely::trials_of;
 use super::forms::at_other_places;
 use super::gridded::stays_on_a_finer_grid;
 use super::loud::heard;
@@ -9,6 +9,7 @@ use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion};
+use crate::causes::Cause;
 use crate::identify::{Fit, Problem};
 use rayon::prelude::*;
 
@@ -121,10 +122,15 @@ impl Grow<'_> {
         next.map(|t| t.fit.clone())
     }
 
-    /// Trials beside a set; `enough` is the misfit that a further cause must reach.
+    /// Trials beside a set, as far as sets with them are asked for; `enough` is the misfit that a further cause must reach.
     fn beside(&self, current: &Fit, (effort, enough): (Effort, f64)) -> Vec<Trial> {
         let Grow { bench, timed, .. } = *self;
-        trials(&bench.train, &bench.scale, timed, current, (effort, enough))
+        let any = !bench.wearing_sets || current.effects.iter().any(|a| a.effect.lasting() > 0);
+        let asked = |cause: &dyn Cause| {
+            (timed || !cause.needs_time()) && (any || cause.effect().lasting() > 0)
+        };
+        let asked_for = (effort, enough);
+        trials_of(asked, &bench.train, &bench.scale, current, asked_for)
     }
 
     /// Adds causes to a set of one or two. A second cause stays until the places of both have been looked at.
@@ -190,7 +196,7 @@ impl Grow<'_> {
         let enough = (best.misfit - FURTHER_SHARE * beyond).min(self.wanted);
         beginnings.truncate(BEGINNINGS);
         let pair = |one: &Trial| {
-            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit.min(self.wanted)));
+            let trials = self.beside(&one.fit, (Effort::Quick, enough));
             self.next(&one.fit, &trials, enough)
         };
         let pairs: Vec<Fit> = beginnings.into_par_iter().filter_map(pair).collect();
@@ -328,6 +334,36 @@ mod tests {
         assert_eq!(on(2.0 * grown.misfit).effects, grown.effects);
         assert_eq!(on(0.6 * grown.misfit), two);
     }
+
+    /// Where sets without a cause that wears the joint are known, one has to come beside a dashpot, and any beside one.
+    #[test]
+    fn sets_that_are_known_of_joints_made_anew_are_not_asked_for_where_wear_goes_on() {
+        let mut bench = dashpot(20261130);
+        let plain = baseline(&bench.train);
+        let names = |bench: &Bench, own: &str| {
+            let effect = find(own).unwrap().effect();
+            let mut values = vec![0.0; effect.parameters().len()];
+            values[0] = 1e-3;
+            let set = refit(&bench.train, &plain, vec![Acting { effect, values }]);
+            let grow = Grow {
+                bench,
+                timed: true,
+                effort: Effort::Full,
+                least: 0.0,
+                wanted: f64::INFINITY,
+            };
+            let beside = grow.beside(&set, (Effort::Quick, f64::INFINITY));
+            beside.iter().map(|t| t.cause.name()).collect::<Vec<_>>()
+        };
+        let any = names(&bench, "viscous_damping");
+        bench.wearing_sets = true;
+        let wearing = names(&bench, "viscous_damping");
+        assert!(wearing.contains(&"running_in") && wearing.len() < any.len());
+        let wears = |name: &&str| find(name).unwrap().effect().lasting() > 0;
+        assert!(wearing.iter().all(wears));
+        assert!(names(&bench, "running_in").iter().any(|name| !wears(name)));
+    }
+
     /// Of a variance that sixteen cycles told, a set leaves no more than that may be wrong by, and then twice as much.
     #[test]
     fn what_the_noise_may_be_told_wrong_by_asks_no_larger_share_of_a_cause() {

@@ -156,7 +156,10 @@ pub(super) fn made_anew(
             // A single cause that takes the better part may leave as little on cells that suit it.
             let half = 0.5 * (first.misfit + near);
             let asked = (Effort::Full, half);
-            let singles = || trials(&bench.train, &bench.scale, timed, &first, asked);
+            let singles = || match &alone {
+                Some(known) => known.clone(),
+                None => trials(&bench.train, &bench.scale, timed, &first, asked),
+            };
             let suits = |t: &Trial| {
                 t.plausible && t.fit.misfit < half && left_on_own_cells(&bench.train, &t.fit) < near
             };

@@ -1,15 +1,16 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
-use super::coarsely::trials_of;
+use super::coarsely::{trials_again, trials_of};
 use super::growing::{FURTHER_SHARE, leaves_structure, noise_alone};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
 use super::investigation::Investigation;
+use super::prepare::Bench;
 use super::search::{Found, alone};
 use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 
 use crate::causes::Cause;
-use crate::identify::refit_below;
+use crate::identify::{Problem, refit_below, suited};
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -32,16 +33,27 @@ pub(super) fn however_worn(
         return on;
     }
     let anew = made_anew(records, virgin, (timed, enough), progress);
-    if !anew.may_wear_on() {
+    if !anew.may_wear_on(timed) {
         return anew;
     }
     progress(WORN_ON);
     let mut bench = anew.bench.clone();
     bench.wear_on();
-    let first = anew.found.baseline.clone();
+    // Where nothing else tells the noise any set may.
+    bench.wearing_sets = bench.noise_is_repeated();
+    let known = bench
+        .wearing_sets
+        .then(|| anew.alone_worn_on(&bench, timed));
+    let first = (anew.found.baseline.clone(), known);
     let enough = enough.min(anew.enough());
-    let on = sharply_searched(bench, (first, None), (timed, enough), progress);
+    let mut on = sharply_searched(bench, first, (timed, enough), progress);
+    on.bench.wearing_sets = false;
     anew.or_likelier(on)
+}
+
+/// True of a cause that wears the joint, and of records it can be told by.
+fn wears(cause: &dyn Cause, timed: bool) -> bool {
+    cause.effect().lasting() > 0 && (timed || !cause.needs_time())
 }
 
 /// What is found in records of virgin joints where wear goes on from one to the next, if one cause that wears leaves
@@ -71,8 +83,8 @@ fn worn_by_one_cause(
     let noise_alone = noise_alone(&bench.train, first);
     let mut on = bench.clone();
     on.wear_on();
-    let wears = |cause: &dyn Cause| (timed || !cause.needs_time()) && cause.effect().lasting() > 0;
     let quick = (Effort::Quick, noise_alone);
+    let wears = |cause: &dyn Cause| wears(cause, timed);
     let worn = || trials_of(wears, &on.train, &on.scale, first, quick);
     if one_leaves(anew, noise_alone) || !one_leaves(&worn(), noise_alone) {
         return None;
@@ -86,26 +98,26 @@ fn worn_by_one_cause(
 }
 
 impl Investigation {
-    /// True where wear that goes on from record to record explains what wear of joints made new between them does
-    /// not, beside the causes that were found or alone; or alone more than those. Beside one cause that leaves noise it has
-    /// to do a good part of what that does: any cause may do somewhat more of it where it goes on.
-    fn may_wear_on(&self) -> bool {
+    /// True where wear that goes on from record to record explains what wear of joints made new between them does not, alone
+    /// or by the causes that were found; where those leave structure, beside them or in the place of one.
+    ///
+    /// Beside one cause that leaves noise it has to do a good part of what that does: any cause may do somewhat more of it
+    /// where it goes on.
+    fn may_wear_on(&self, timed: bool) -> bool {
         let train = &self.bench.train;
         let best = &self.found.best;
         if train.records.len() < 2 || train.wears_on {
             return false;
         }
-        let wears = best.effects.iter().any(|a| a.effect.lasting() > 0);
+        let worn = best.effects.iter().any(|a| a.effect.lasting() > 0);
         let mut on = train.clone();
         on.wears_on = true;
         let margin = ALARM * dispersion(train, best);
         let wanted = best.misfit - margin;
-        if wears && refit_below(&on, best, best.effects.clone(), wanted).misfit < wanted {
+        if worn && refit_below(&on, best, best.effects.clone(), wanted).misfit < wanted {
             return true;
         }
-        let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
         let Found { baseline, .. } = &self.found;
-        let does_more_than_all = |on: &Trial| on.fit.misfit < wanted;
         let beyond = baseline.misfit - train.rows() as f64;
         let least = margin.max(FURTHER_SHARE * beyond);
         let structure = leaves_structure(train, best);
@@ -113,17 +125,64 @@ impl Investigation {
             true => baseline.misfit - RIVAL * (baseline.misfit - best.misfit),
             false => f64::INFINITY,
         };
+        let done_by_wear = worn && !structure;
+        let enough = if done_by_wear {
+            nearly.max(wanted)
+        } else {
+            wanted
+        };
+        let tried = (Effort::Full, enough);
+        let wearing = |cause: &dyn Cause| wears(cause, timed);
+        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
         let does_more_than_anew = |on: &Trial| {
             let anew = trial_of(&self.found.trials, on.cause.name());
             let more = anew.map_or(baseline.misfit, |t| t.fit.misfit) - least;
             on.fit.misfit < more.min(nearly)
         };
-        let left = wears || structure;
-        let enough = if left { nearly.max(wanted) } else { wanted };
-        let tried = (Effort::Full, enough);
-        let trials = trials_of(wearing, &on, &self.bench.scale, baseline, tried);
-        let mut trials = trials.iter();
-        trials.any(|on| does_more_than_all(on) || left && does_more_than_anew(on))
+        let does_more =
+            |on: &Trial| on.fit.misfit < wanted || done_by_wear && does_more_than_anew(on);
+        trials.iter().any(does_more) || structure && self.is_mended_by(wearing, &on)
+    }
+
+    /// True where one of the causes beside the set, or in the place of one of several, takes a share of what it leaves.
+    fn is_mended_by(&self, causes: impl Fn(&dyn Cause) -> bool, on: &Problem) -> bool {
+        let best = &self.found.best;
+        let beyond = best.misfit - on.rows() as f64;
+        let enough = best.misfit - FURTHER_SHARE * beyond;
+        let fewer = (0..best.effects.len()).map(|place| {
+            let mut others = best.effects.clone();
+            others.remove(place);
+            others
+        });
+        let several = best.effects.len() > 1;
+        let mut sets = fewer.filter(|_| several).chain([best.effects.clone()]);
+        sets.any(|set| {
+            let begun = suited(on, best, set);
+            let tried = (Effort::Full, enough);
+            one_leaves(
+                &trials_of(&causes, on, &self.bench.scale, &begun, tried),
+                enough,
+            )
+        })
+    }
+
+    /// Every cause alone where wear goes on: those that do not wear the joint as they were found of joints made anew.
+    fn alone_worn_on(&self, on: &Bench, timed: bool) -> Vec<Trial> {
+        let Found {
+            baseline, trials, ..
+        } = &self.found;
+        let wearing = |cause: &dyn Cause| wears(cause, timed);
+        let others = trials.iter().filter(|t| !wearing(t.cause));
+        let others: Vec<Trial> = others.cloned().collect();
+        let cells = (others.as_slice(), &self.bench.train.operators);
+        let (problem, asked) = ((&on.train, &on.scale), (Effort::Full, f64::INFINITY));
+        let (mut all, worn) = rayon::join(
+            || trials_again(cells, problem, baseline, asked),
+            || trials_of(wearing, &on.train, &on.scale, baseline, asked),
+        );
+        all.extend(worn);
+        all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        all
     }
 }
 
@@ -131,10 +190,10 @@ impl Investigation {
 mod tests {
     use super::*;
     use crate::causes::find;
-    use crate::diagnose::prepare::{Bench, prepare};
+    use crate::diagnose::prepare::prepare;
     use crate::identify::beginning::Beginning;
     use crate::identify::refit;
-    use crate::identify::{Fit, Form, Problem, baseline};
+    use crate::identify::{Fit, Form, baseline};
     use crate::joint::effect::Acting;
     use crate::record::noise::tests::drawn;
     use std::f64::consts::TAU;
@@ -191,8 +250,8 @@ mod tests {
             bench: bench.clone(),
             found: Found::unasked(first.clone(), best, Vec::new()),
         };
-        assert!(!found(best).may_wear_on());
+        assert!(!found(best).may_wear_on(true));
         // Beside nothing that explains the records they are.
-        assert!(found(first.clone()).may_wear_on());
+        assert!(found(first.clone()).may_wear_on(true));
     }
 }

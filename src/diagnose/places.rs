@@ -1,9 +1,10 @@
 //! The place of each cause in a set of several: who else would do there, beside the others.
 
 use super::coarsely::trials;
+use super::growing::FURTHER_SHARE;
 use super::prepare::Bench;
 use super::probability::temperature;
-use super::tested::{Prospect, beyond_unseen};
+use super::tested::{Prospect, beyond_unseen, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, all_plausible, dispersion, penalty, trial_of};
 use super::verdict::NEGLIGIBLE;
 use crate::causes;
@@ -33,9 +34,9 @@ pub fn places(
     mut known: Option<Vec<Trial>>,
 ) -> Vec<Place> {
     let problem = &bench.train;
-    let unseen = match best.effects.len() {
-        0 | 1 => 0.0,
-        _ => beyond_unseen(bench, best).max(0.0),
+    let exchanged = match best.effects.len() {
+        0 | 1 => best.misfit,
+        _ => worth_exchanging(bench, best),
     };
     (0..best.effects.len())
         .map(|place| {
@@ -43,7 +44,7 @@ pub fn places(
             let named = others.remove(place).effect.name();
             let less = alone(problem, best, others, first);
             let brought = less.misfit - best.misfit;
-            let wanted = as_well(problem, best, brought).max(best.misfit + unseen);
+            let wanted = as_well(problem, best, brought).max(exchanged);
             let known = known.take_if(|_| place + 1 == best.effects.len());
             let trials = match (best.effects.len(), known) {
                 (_, Some(known)) => known,
@@ -67,6 +68,28 @@ pub fn places(
         .collect()
 }
 
+/// Misfit below which another cause in the place of one may make the set better: it may leave more of fitted samples where
+/// held-out ones are predicted worse than those, and is itself taken to leave as much of each kind.
+fn worth_exchanging(bench: &Bench, best: &Fit) -> f64 {
+    let rows = bench.train.rows() as f64;
+    let beyond = left_of_all(bench, best) - exchange_gains(bench, best);
+    let fitted = rows / (rows + unseen_rows(bench));
+    best.misfit.max(rows + fitted * beyond)
+}
+
+/// What an exchange has to gain: more than chance, and a share of what the set leaves beyond noise; of two that leave as
+/// much as that neither is right.
+fn exchange_gains(bench: &Bench, best: &Fit) -> f64 {
+    let chance = ALARM * dispersion(&bench.train, best);
+    chance.max(FURTHER_SHARE * left_of_all(bench, best))
+}
+
+/// Misfit beyond noise of fitted samples and of held-out ones.
+fn left_of_all(bench: &Bench, best: &Fit) -> f64 {
+    let rows = bench.train.rows() as f64;
+    (best.misfit - rows).max(0.0) + beyond_unseen(bench, best).max(0.0)
+}
+
 /// The refit of what remains of a set; a single cause that did better when it was tried alone stays as
 /// it was then: beside the others it may have taken a part that is not its own.
 pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]) -> Fit {
@@ -86,7 +109,7 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
 /// The new one comes last, and its place's trials come along.
 pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
     let scale = dispersion(&bench.train, best);
-    let least = ALARM * scale;
+    let least = exchange_gains(bench, best);
     let cost = |fit: &Fit| scale * penalty(&bench.train, fit.free());
     let own = cost(best);
     places
@@ -228,6 +251,27 @@ mod tests {
             assert!((-against / temperature(brought)).exp() > 0.04, "{brought}");
             assert!(behind >= MARGIN, "{brought}");
         }
+    }
+
+    /// What predicts held-out samples as it fits the others is exchanged for what leaves less of those; what predicts them far
+    /// worse, for what may leave more.
+    #[test]
+    fn what_an_exchange_may_leave_of_fitted_samples_is_told_by_those_held_out() {
+        let bench = dashpot(20261130);
+        let rows = bench.train.rows() as f64;
+        // A tenth too soft at every sample.
+        let mut soft = baseline(&bench.train);
+        soft.coefficients.iter_mut().for_each(|c| *c *= 1.1);
+        soft.misfit = bench.train.misfit(&soft.predict(&bench.train)).0;
+        let unseen = beyond_unseen(&bench, &soft) / unseen_rows(&bench);
+        let fitted = soft.misfit / rows - 1.0;
+        assert!(fitted > 1.0 && (unseen / fitted - 1.0).abs() < 0.1);
+        assert_eq!(worth_exchanging(&bench, &soft), soft.misfit);
+        let overfitted = Fit {
+            misfit: 1.2 * rows,
+            ..soft
+        };
+        assert!(worth_exchanging(&bench, &overfitted) > 1.4 * rows);
     }
 
     /// A dashpot: a delay does as well, and pinning with five values, but not for one.

@@ -38,6 +38,9 @@ pub struct Bench {
     pub noisy_drive: bool,
     /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
     pub unsure: Vec<usize>,
+    /// True where sets without a cause that wears the joint were searched before, of joints made anew, which they leave as
+    /// much of.
+    pub wearing_sets: bool,
 }
 
 /// Correlation of neighbours above which what varies so slowly is rather structure than noise: noise of 0.9 is told as 0.93
@@ -90,6 +93,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         scale,
         noisy_drive: loud.contains(&true),
         unsure: vec![0; records.len()],
+        wearing_sets: false,
     };
     for (k, beginning) in beginnings.iter().enumerate() {
         if beginning.is_sought() {

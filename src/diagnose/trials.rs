@@ -206,7 +206,7 @@ pub(super) fn of_all_samples(
     )
 }
 
-/// Trials of what leads, then those of the others as far as they are worth going on behind those, best first.
+/// Trials of what leads, then those of the others as far as they may come near those with values of their own, best first.
 pub(super) fn led<T: Sync>(
     (problem, scale): (&Problem, &Scale),
     current: &Fit,
@@ -216,9 +216,8 @@ pub(super) fn led<T: Sync>(
 ) -> Vec<Trial> {
     let leading = leading.into_par_iter();
     let mut trials: Vec<Trial> = leading.map(|one| try_one(one, wanted)).collect();
-    let lowest = trials
-        .iter()
-        .fold(current.misfit, |least, t| least.min(t.fit.misfit));
+    let plausible = trials.iter().filter(|t| t.plausible);
+    let lowest = plausible.fold(current.misfit, |least, t| least.min(t.fit.misfit));
     let bound = wanted.min(lowest + behind * (current.misfit - lowest) + ALARM);
     trials.par_extend(others.into_par_iter().map(|one| try_one(one, bound)));
     if effort == Effort::Full {
@@ -238,6 +237,7 @@ fn settled(
 ) -> Vec<Trial> {
     let lowest = trials
         .iter()
+        .filter(|t| t.plausible)
         .min_by(|a, b| a.fit.misfit.total_cmp(&b.fit.misfit));
     let Some(lowest) = lowest.map(|t| &t.fit) else {
         return trials;
