@@ -198,8 +198,18 @@ mod tests {
     use crate::record::noise::tests::drawn;
     use std::f64::consts::TAU;
 
-    /// Two tests of joints made new whose friction settles with the energy they dissipate, in noise of the displacement.
-    fn settling() -> (Bench, Vec<Acting>) {
+    /// A reading that comes late by so much \[s\].
+    fn delay(late: f64) -> Acting {
+        Acting {
+            effect: find("sensor_delay").unwrap().effect(),
+            values: vec![late, 0.0, 0.0],
+        }
+    }
+
+    /// Two tests of joints whose friction settles with the energy they dissipate, made new between them or going on, in
+    /// noise of the displacement, whose reading comes late by so much \[s\] and has a seventh of the load's cycle in it, of
+    /// this size.
+    fn settling(goes_on: bool, (late, seventh): (f64, f64)) -> (Bench, Vec<Acting>) {
         let test = |levels: [f64; 4]| {
             let load = |i: usize| levels[i / 400] * (TAU * i as f64 / 80.0).sin();
             Record {
@@ -211,7 +221,8 @@ mod tests {
             }
         };
         let mut records = [test([0.5, 0.7, 0.9, 1.0]), test([1.0, 0.6, 0.8, 0.9])];
-        let plain = Problem::new(Form::Play, &records);
+        let mut plain = Problem::new(Form::Play, &records);
+        plain.wears_on = goes_on;
         let mut joint = vec![0.02; plain.operators.columns()];
         joint[0] = 1.0;
         let acting = vec![Acting {
@@ -219,10 +230,13 @@ mod tests {
             values: vec![0.2, 2.0, 0.0, 0.0, 0.0],
         }];
         let mut noise = drawn(20261128);
-        let answers = plain.predict(&joint, &acting);
+        let both = [acting.clone(), vec![delay(late)]].concat();
+        let answers = plain.predict(&joint, &both);
         for (record, answer) in records.iter_mut().zip(answers) {
-            let noisy = answer.judged.iter().map(|u| u + 0.01 * noise());
-            record.displacement = noisy.collect();
+            let read = |(i, u): (usize, &f64)| {
+                u + seventh * (7.0 * TAU * i as f64 / 80.0).sin() + 0.01 * noise()
+            };
+            record.displacement = answer.judged.iter().enumerate().map(read).collect();
         }
         let virgin = [Beginning::default(), Beginning::default()];
         (prepare(Form::Play, &records, &virgin), acting)
@@ -231,7 +245,7 @@ mod tests {
     /// Where one cause leaves noise, others that do somewhat more of its work where wear goes on are not searched for.
     #[test]
     fn wear_that_goes_on_has_to_rival_one_cause_that_leaves_noise() {
-        let (bench, acting) = settling();
+        let (bench, acting) = settling(false, (0.0, 0.0));
         let first = baseline(&bench.train);
         let best = refit(&bench.train, &first, acting);
         assert!(!leaves_structure(&bench.train, &best));
@@ -253,5 +267,24 @@ mod tests {
         assert!(!found(best).may_wear_on(true));
         // Beside nothing that explains the records they are.
         assert!(found(first.clone()).may_wear_on(true));
+    }
+
+    /// What a load's seventh leaves no wear takes, whether it goes on or not; friction that settles through both tests does,
+    /// beside a reading that comes late.
+    #[test]
+    fn of_what_is_left_wear_that_goes_on_has_to_take_a_share() {
+        let investigation = |(bench, effects): (Bench, Vec<Acting>)| {
+            let first = baseline(&bench.train);
+            let best = refit(&bench.train, &first, effects);
+            assert!(leaves_structure(&bench.train, &best));
+            Investigation {
+                found: Found::unasked(first, best, Vec::new()),
+                bench,
+            }
+        };
+        let anew = settling(false, (0.0, 0.05));
+        assert!(!investigation(anew).may_wear_on(true));
+        let (bench, _) = settling(true, (0.03, 0.0));
+        assert!(investigation((bench, vec![delay(0.02)])).may_wear_on(true));
     }
 }
