@@ -73,7 +73,7 @@ fn likelier_below(train: &Problem, fit: &Fit) -> f64 {
 }
 
 /// True where the causes of a fit leave less than a misfit of another problem.
-fn leaves_less(other: &Problem, fit: &Fit, misfit: f64) -> bool {
+pub(super) fn leaves_less(other: &Problem, fit: &Fit, misfit: f64) -> bool {
     refit_below(other, fit, fit.effects.clone(), misfit).misfit < misfit
 }
 

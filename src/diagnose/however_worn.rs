@@ -1,6 +1,7 @@
 //! Records searched however they wear the joint: each one that was made new for it, or one joint through all.
 
 use super::coarsely::{trials_again, trials_of};
+use super::driven::leaves_less;
 use super::growing::{FURTHER_SHARE, leaves_structure, noise_alone};
 use super::however_begun::{Virgin, made_anew, sharply_searched};
 use super::investigation::Investigation;
@@ -10,7 +11,7 @@ use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 
 use crate::causes::Cause;
-use crate::identify::{Problem, refit_below, suited};
+use crate::identify::{Problem, suited};
 use crate::record::Record;
 
 /// Said where wear of one record is taken to the next.
@@ -114,7 +115,7 @@ impl Investigation {
         on.wears_on = true;
         let margin = ALARM * dispersion(train, best);
         let wanted = best.misfit - margin;
-        if worn && refit_below(&on, best, best.effects.clone(), wanted).misfit < wanted {
+        if worn && leaves_less(&on, best, wanted) {
             return true;
         }
         let Found { baseline, .. } = &self.found;
