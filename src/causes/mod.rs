@@ -147,6 +147,10 @@ pub trait Cause: Effect {
     fn needs_time(&self) -> bool {
         false
     }
+    /// True where records show it that are `timed`, or are not.
+    fn is_told(&self, timed: bool) -> bool {
+        timed || !self.needs_time()
+    }
     /// True where it happens once, at a time of its own, so that another test need not have it.
     fn happens_once(&self) -> bool {
         false

@@ -40,7 +40,7 @@ pub fn trials(
     current: &Fit,
     asked: (Effort, f64),
 ) -> Vec<Trial> {
-    let usable = |c: &dyn Cause| timed || !c.needs_time();
+    let usable = |c: &dyn Cause| c.is_told(timed);
     trials_of(usable, problem, scale, current, asked)
 }
 
@@ -91,7 +91,7 @@ fn from_these(
 }
 
 /// A problem with few of its samples, and a set that suits these.
-struct Coarsely {
+pub(super) struct Coarsely {
     problem: Problem,
     current: Fit,
     /// Independent samples of which one was left.
@@ -100,7 +100,7 @@ struct Coarsely {
 
 impl Coarsely {
     /// `None` of records that are short, and of a set that does not suit few samples as well as all.
-    fn of(problem: &Problem, current: &Fit) -> Option<Coarsely> {
+    pub(super) fn of(problem: &Problem, current: &Fit) -> Option<Coarsely> {
         let explainable = current.misfit - problem.rows() as f64;
         let enough = LEADER * problem.independent_rows() / explainable.max(0.0);
         let enough = enough.clamp(FEWEST, MOST);
@@ -136,28 +136,42 @@ impl Coarsely {
         let few = of_all_samples(usable, &self.problem, scale, &self.current, asked);
         from_these(&few, (problem, scale), current, (effort, wanted), BEHIND)
     }
+
+    /// A set that is fitted `by_few` samples, from what suits them and below a misfit, fitted to all where it comes near
+    /// `bound` of those.
+    pub(super) fn fitted(
+        &self,
+        (problem, current): (&Problem, &Fit),
+        bound: f64,
+        by_few: impl FnOnce(&Problem, &Fit, f64) -> Option<Fit>,
+    ) -> Option<Fit> {
+        let wanted = self.wanted(current, bound);
+        let few = by_few(&self.problem, &self.current, wanted)?;
+        Some(to_all(problem, current, &few, bound))
+    }
 }
 
-/// A cause as few samples, or other cells, have told it, fitted to all where it comes near a misfit of `bound`.
+/// A set as few samples, or other cells, have told it, fitted to all where it comes near a misfit of `bound`.
+fn to_all(problem: &Problem, current: &Fit, few: &Fit, bound: f64) -> Fit {
+    let begun = suited(problem, few, few.effects.clone());
+    let astray = ASTRAY * (current.misfit - begun.misfit).max(0.0) + ALARM;
+    if begun.misfit - astray >= bound {
+        return begun;
+    }
+    let misfit = current.misfit;
+    let start = Fit { misfit, ..begun };
+    refit_below(problem, &start, start.effects.clone(), bound)
+}
+
+/// A cause as few samples, or other cells, have told it, fitted to all and refined where it leaves less than `bound`.
 fn onward((problem, scale): (&Problem, &Scale), current: &Fit, few: &Trial, bound: f64) -> Trial {
     let fit = match few.own() {
         None => current.clone(),
-        Some(_) => {
-            let begun = suited(problem, &few.fit, few.fit.effects.clone());
-            let astray = ASTRAY * (current.misfit - begun.misfit).max(0.0) + ALARM;
-            match begun.misfit - astray < bound {
-                true => {
-                    let misfit = current.misfit;
-                    let start = Fit { misfit, ..begun };
-                    let fit = refit_below(problem, &start, start.effects.clone(), bound);
-                    match fit.misfit < bound {
-                        true => refined_nearby((problem, scale), few.cause, fit),
-                        false => fit,
-                    }
-                }
-                false => begun,
-            }
-        }
+        Some(_) => to_all(problem, current, &few.fit, bound),
+    };
+    let fit = match fit.misfit < bound {
+        true => refined_nearby((problem, scale), few.cause, fit),
+        false => fit,
     };
     Trial::of((problem, scale), few.cause, current, fit)
 }

@@ -4,7 +4,7 @@ use super::places::scatter;
 use super::prepare::Bench;
 use crate::causes::find;
 use crate::identify::weighing::whiten;
-use crate::identify::{self, Fit, Form, Problem, refit};
+use crate::identify::{self, Fit, Form, Problem, refit, refit_below};
 use crate::joint::effect::Acting;
 use rayon::prelude::*;
 
@@ -90,7 +90,7 @@ pub(super) fn marched_otherwise(problem: &Problem, fit: &Fit) -> Vec<Vec<Acting>
         return Vec::new();
     }
     let own = (problem.hauling, problem.turns);
-    let rows = problem.rows() as f64;
+    let as_much = fit.misfit + scatter(problem.rows() as f64);
     let otherwise_formed: Vec<Acting> = fit.effects.iter().map(otherwise).collect();
     let ways = [COARSE, HAULING].into_iter().flat_map(|fineness| {
         let both = [&fit.effects, &otherwise_formed];
@@ -106,12 +106,11 @@ pub(super) fn marched_otherwise(problem: &Problem, fit: &Fit) -> Vec<Vec<Acting>
             misfit: f64::INFINITY,
             ..fit.clone()
         };
-        let other = refit(&other, &begun, effects.clone());
-        let as_much = other.misfit < fit.misfit + scatter(rows);
+        let other = refit_below(&other, &begun, effects.clone(), as_much);
         let same = *effects == fit.effects;
         let back = |a: &Acting| if same { a.clone() } else { otherwise(a) };
         let back: Vec<Acting> = other.effects.iter().map(back).collect();
-        (as_much && (same || agree(&fit.effects, &back))).then_some(back)
+        (other.misfit < as_much && (same || agree(&fit.effects, &back))).then_some(back)
     });
     marched.collect()
 }

@@ -202,8 +202,10 @@ pub fn energy(form: Form, input: &[f64], judged: &[f64], from: usize, to: usize)
 /// Share of the energy that the fitted joint dissipates in all cycles by which taking an effect away changes it,
 /// `Σ |D - D_without| / Σ D`: cycles count by what they dissipate, for of one that hardly does any change is many times it.
 pub fn share_of_energy(problem: &Problem, fit: &Fit, without: usize) -> f64 {
-    let mut less = fit.clone();
-    less.effects.remove(without);
+    let less = Fit {
+        effects: fit.others(without),
+        ..fit.clone()
+    };
     let (with, without) = (fit.predict(problem), less.predict(problem));
     let (mut changed, mut dissipated) = (0.0, 0.0);
     for k in 0..problem.records.len() {

@@ -125,10 +125,8 @@ impl Grow<'_> {
     /// Trials beside a set, as far as sets with them are asked for; `enough` is the misfit that a further cause must reach.
     fn beside(&self, current: &Fit, (effort, enough): (Effort, f64)) -> Vec<Trial> {
         let Grow { bench, timed, .. } = *self;
-        let any = !bench.wearing_sets || current.effects.iter().any(|a| a.effect.lasting() > 0);
-        let asked = |cause: &dyn Cause| {
-            (timed || !cause.needs_time()) && (any || cause.effect().lasting() > 0)
-        };
+        let any = !bench.wearing_sets || current.effects.iter().any(|a| a.effect.wears());
+        let asked = |cause: &dyn Cause| cause.is_told(timed) && (any || cause.effect().wears());
         let asked_for = (effort, enough);
         trials_of(asked, &bench.train, &bench.scale, current, asked_for)
     }
@@ -259,11 +257,7 @@ pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) ->
     let problem = &bench.train;
     while fit.effects.len() > 1 {
         let without: Option<Fit> = (0..fit.effects.len())
-            .map(|drop| {
-                let mut effects = fit.effects.clone();
-                effects.remove(drop);
-                places::alone(problem, &fit, effects, first)
-            })
+            .map(|drop| places::alone(problem, &fit, fit.others(drop), first))
             .filter(|less| all_plausible(&bench.scale, less))
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
@@ -359,7 +353,7 @@ mod tests {
         bench.wearing_sets = true;
         let wearing = names(&bench, "viscous_damping");
         assert!(wearing.contains(&"running_in") && wearing.len() < any.len());
-        let wears = |name: &&str| find(name).unwrap().effect().lasting() > 0;
+        let wears = |name: &&str| find(name).unwrap().effect().wears();
         assert!(wearing.iter().all(wears));
         assert!(names(&bench, "running_in").iter().any(|name| !wears(name)));
     }

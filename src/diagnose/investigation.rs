@@ -113,11 +113,7 @@ impl Investigation {
         let taken = margin.max(FURTHER_SHARE * (reached - rows));
         let plain = baseline(&other);
         let beside = |effects: Vec<Acting>| refit(&other, &plain, effects).misfit;
-        let fewer = |drop: usize| {
-            let mut effects = best.effects.clone();
-            effects.remove(drop);
-            beside(effects) < reached + margin
-        };
+        let fewer = |drop: usize| beside(best.others(drop)) < reached + margin;
         // One of several causes may do what the beginning is wrong by, or one cause another's work; so may turns that
         // were sought, beside one cause with more values than the right one has, or in the place of a second.
         let sought = !best.effects.is_empty() && sought(&train) > sought(&other);

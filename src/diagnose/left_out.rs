@@ -6,7 +6,7 @@ use super::bootstrap::interval;
 use super::gain::{edges, of_squares};
 use super::prepare::Bench;
 use super::trials::{ALARM, dispersion};
-use crate::identify::{Fit, Prediction, Problem, baseline, refit, smoothed};
+use crate::identify::{Fit, Prediction, Problem, baseline, refit, refit_below, smoothed};
 
 /// One record as the others predict it.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,13 +80,11 @@ fn one(problem: &Problem, whole: &Fit, k: usize) -> LeftOut {
 /// values that nothing tells predict anything.
 fn told(others: &Problem, mut fit: Fit) -> Fit {
     while !fit.effects.is_empty() {
-        let without = (0..fit.effects.len()).map(|place| {
-            let mut effects = fit.effects.clone();
-            effects.remove(place);
-            refit(others, &fit, effects)
-        });
+        let told = fit.misfit + ALARM * dispersion(others, &fit);
+        let places = 0..fit.effects.len();
+        let without = places.map(|place| refit_below(others, &fit, fit.others(place), told));
         match without.min_by(|a, b| a.misfit.total_cmp(&b.misfit)) {
-            Some(less) if less.misfit - fit.misfit < ALARM * dispersion(others, &fit) => fit = less,
+            Some(less) if less.misfit < told => fit = less,
             _ => break,
         }
     }

@@ -1,18 +1,22 @@
 //! What is not in the catalogue and may be at work in place of what was named.
 
+use super::coarsely::Coarsely;
 use super::growing::leaves_structure;
 use super::prepare::Bench;
 use super::probability::temperature;
 use super::refinements::better;
 use super::search::Found;
 use super::trials::{SHAPES, UNREFINED, alarm, dispersion, penalty};
-use crate::causes::find;
-use crate::identify::{Fit, Prediction, Score, refit, refit_below, scores};
+use crate::causes::{Scale, find};
+use crate::identify::{Fit, Prediction, Problem, Score, refit, refit_below, scores};
 use crate::joint::effect::Acting;
 use crate::joint::parameters::Parameter;
 use crate::outside::{OUTSIDE, Outsider};
 use crate::record::written::quantity;
 use rayon::prelude::*;
+
+/// A law that is not in the catalogue.
+type Law = &'static dyn Outsider;
 
 /// What a named cause of the set says itself of its doubles, with its name.
 pub fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
@@ -32,102 +36,23 @@ pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) ->
     let best = &found.best;
     let more = beside || leaves_structure(&bench.train, best);
     let in_places = (0..best.effects.len()).map(Some);
-    let places: Vec<Option<usize>> = in_places.chain(more.then_some(None)).collect();
-    let asked = |one: &dyn Outsider, place: Option<usize>| {
-        place.is_some() || best.effects.is_empty() || one.stands_for_one()
-    };
-    let tried: Vec<(Option<usize>, &dyn Outsider)> = usable(bench, timed)
-        .into_iter()
-        .flat_map(|one| places.iter().map(move |place| (*place, one)))
-        .filter(|(place, one)| asked(*one, *place))
-        .collect();
-    let said = tried.par_iter().filter_map(|(place, one)| {
-        let (likelier, said) = in_place_of(bench, found, (*place, *one))?;
-        Some((*place, likelier, said))
-    });
-    let mut said: Vec<(Option<usize>, f64, String)> = said.collect();
-    // In one place only one law can be at work: the likeliest.
-    said.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-    said.dedup_by_key(|(place, ..)| *place);
-    said.into_iter().map(|(_, _, said)| said).collect()
-}
-
-/// Laws outside the catalogue that records tell anything of, of joints made anew none of one that goes on from record to
-/// record.
-fn usable(bench: &Bench, timed: bool) -> Vec<&'static dyn Outsider> {
-    let goes_on = bench.train.records.iter().any(|r| r.beginning.goes_on);
-    let all = OUTSIDE.iter().copied();
-    let told = |one: &&dyn Outsider| timed || !one.needs_time();
-    all.filter(told)
-        .filter(|one| !(goes_on && one.is_made_anew()))
-        .collect()
-}
-
-/// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring, over the
-/// [`temperature`] of probabilities, as no law is quite true: of all
-/// where it does alone what takes several, as what they have in common is its work; else of the one in whose place it does
-/// most, of a law that stands for a single one.
-pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
-    let set = &found.best.effects;
-    let margin = alarm(&bench.train) * temperature(found.brings(&bench.train));
-    let passes = |one: &dyn Outsider, k: usize| one.passes_for(set[k].effect.name());
-    let all = 0..set.len();
-    let alone = usable(bench, timed).into_par_iter().any(|one| {
-        let stands = set.len() > 1 || one.stands_for_one();
-        let asked = stands && all.clone().any(|k| passes(one, k));
-        asked && beside(bench, found, (one, Vec::new()), margin).is_some()
-    });
-    if alone {
-        return all.collect();
-    }
-    let likelier = |one, k| beside(bench, found, (one, others(set, k)), margin);
-    let tried = usable(bench, timed)
+    let places: Vec<Option<usize>> = more.then_some(None).into_iter().chain(in_places).collect();
+    let usable = usable(bench, timed);
+    let said = places
         .into_par_iter()
-        .filter(|one| one.stands_for_one() && set.len() > 1)
-        .flat_map_iter(|one| all.clone().map(move |k| (k, one)))
-        .filter(|(k, one)| passes(*one, *k))
-        .filter_map(|(k, one)| Some((likelier(one, k)?.0, k)));
-    let most = tried.max_by(|a, b| a.0.total_cmp(&b.0));
-    most.map(|(_, k)| k).into_iter().collect()
+        .filter_map(|place| said_of(bench, found, place, &usable));
+    said.collect()
 }
 
-/// The causes of a set but for one.
-fn others(set: &[Acting], k: usize) -> Vec<Acting> {
-    let mut others = set.to_vec();
-    others.remove(k);
-    others
-}
-
-/// Evidence beyond a margin for one law beside these causes against the named ones, and the fit with it.
-fn beside(
-    bench: &Bench,
-    found: &Found,
-    (one, others): (&dyn Outsider, Vec<Acting>),
-    margin: f64,
-) -> Option<(f64, Fit)> {
-    let start = match others.is_empty() {
-        true => found.baseline.clone(),
-        false if others == found.best.effects => found.best.clone(),
-        false => refit(&bench.train, &found.best, others),
+/// What is said of the law that is likeliest in the place of one of the causes, or beside all of them.
+fn said_of(bench: &Bench, found: &Found, place: Option<usize>, usable: &[Law]) -> Option<String> {
+    let best = &found.best;
+    let named = place.map(|k| best.effects[k].effect.name());
+    let asked = |one: &Law| match named {
+        Some(name) => one.passes_for(name),
+        None => best.effects.is_empty() || one.stands_for_one(),
     };
-    let enough = least_likely(bench, (&found.best, margin), &start);
-    let fit = fitted(bench, &start, one, enough)?;
-    let likelier = likelier_by(bench, &fit, &found.best);
-    (likelier > margin).then_some((likelier, fit))
-}
-
-/// Evidence for one law in the place of one of the causes, or beside all of them, and what is said of it.
-fn in_place_of(
-    bench: &Bench,
-    found: &Found,
-    (place, one): (Option<usize>, &dyn Outsider),
-) -> Option<(f64, String)> {
-    let set = &found.best.effects;
-    let named = place.map(|k| set[k].effect.name());
-    if named.is_some_and(|name| !one.passes_for(name)) {
-        return None;
-    }
-    let others = place.map_or_else(|| set.clone(), |k| others(set, k));
+    let others = place.map_or_else(|| best.effects.clone(), |k| best.others(k));
     let lead = match named {
         Some(name) => format!("{name}: "),
         None if others.is_empty() => String::new(),
@@ -139,9 +64,9 @@ fn in_place_of(
     } else {
         alarm(&bench.train)
     };
-    let (likelier, fit) = beside(bench, found, (one, others), margin)?;
-    let values = &fit.effect(one.name())?.values;
-    let values = one.parameters().iter().zip(values);
+    let Likelier { law, fit, .. } = likeliest(bench, found, those(usable, asked), others, margin)?;
+    let values = &fit.effect(law.name())?.values;
+    let values = law.parameters().iter().zip(values);
     let said = values
         .filter(|(parameter, value)| parameter.neutral != Some(**value))
         .map(|(parameter, value)| {
@@ -149,10 +74,81 @@ fn in_place_of(
             format!("{name} {}", quantity(*value, unit))
         });
     let said: Vec<String> = said.collect();
-    Some((
-        likelier,
-        format!("{lead}{} ({})", one.words(), said.join(", ")),
-    ))
+    Some(format!("{lead}{} ({})", law.words(), said.join(", ")))
+}
+
+/// Laws outside the catalogue that records tell anything of, of joints made anew none of one that goes on from record to
+/// record.
+fn usable(bench: &Bench, timed: bool) -> Vec<Law> {
+    let goes_on = bench.train.records.iter().any(|r| r.beginning.goes_on);
+    let all = OUTSIDE.iter().copied();
+    let told = |one: &Law| timed || !one.needs_time();
+    all.filter(told)
+        .filter(|one| !(goes_on && one.is_made_anew()))
+        .collect()
+}
+
+/// Places of named causes that one law outside the catalogue stands for, better by as much as a cause has to bring, over the
+/// [`temperature`] of probabilities, as no law is quite true: of all
+/// where it does alone what takes several, as what they have in common is its work; else of the one in whose place it does
+/// most, of a law that stands for a single one.
+pub fn stood_for(bench: &Bench, found: &Found, timed: bool) -> Vec<usize> {
+    let best = &found.best;
+    let all = 0..best.effects.len();
+    let several = all.len() > 1;
+    let margin = alarm(&bench.train) * temperature(found.brings(&bench.train));
+    let usable = usable(bench, timed);
+    let passes = |one: &Law, k: usize| one.passes_for(best.effects[k].effect.name());
+    let alone = |one: &Law| {
+        let stands = several || one.stands_for_one();
+        stands && all.clone().any(|k| passes(one, k))
+    };
+    if likeliest(bench, found, those(&usable, alone), Vec::new(), margin).is_some() {
+        return all.collect();
+    }
+    let likelier = |k: usize| {
+        let asked = |one: &Law| several && one.stands_for_one() && passes(one, k);
+        let one = likeliest(bench, found, those(&usable, asked), best.others(k), margin)?;
+        Some((one.by, k))
+    };
+    let tried = all.clone().into_par_iter().filter_map(likelier);
+    let most = tried.max_by(|a, b| a.0.total_cmp(&b.0));
+    most.map(|(_, k)| k).into_iter().collect()
+}
+
+/// A law outside the catalogue that is likelier than the named causes.
+struct Likelier {
+    law: Law,
+    /// Its evidence against them.
+    by: f64,
+    /// The fit with it.
+    fit: Fit,
+}
+
+fn those(usable: &[Law], asked: impl Fn(&Law) -> bool) -> Vec<Law> {
+    usable.iter().copied().filter(asked).collect()
+}
+
+/// The likeliest of these laws beside these causes, by more than a margin.
+fn likeliest(
+    bench: &Bench,
+    found: &Found,
+    laws: Vec<Law>,
+    causes: Vec<Acting>,
+    margin: f64,
+) -> Option<Likelier> {
+    if laws.is_empty() {
+        return None;
+    }
+    let beside = Beside::of(bench, found, causes);
+    let enough = least_likely(bench, (&found.best, margin), &beside.start);
+    let likelier = |law: Law| {
+        let fit = beside.fitted(law, enough)?;
+        let by = likelier_by(bench, &fit, &found.best);
+        (by > margin).then_some(Likelier { law, by, fit })
+    };
+    let tried = laws.into_par_iter().filter_map(likelier);
+    tried.max_by(|a, b| a.by.total_cmp(&b.by))
 }
 
 /// Evidence for one fit against another.
@@ -170,44 +166,137 @@ fn least_likely(bench: &Bench, (other, margin): (&Fit, f64), start: &Fit) -> f64
     other.misfit + dispersion(train, other) * fewer.max(0.0)
 }
 
-/// The best fit with a law beside a set, where its values are no cause's; without a prospect of a misfit below `enough`
-/// only begun.
-fn fitted(bench: &Bench, start: &Fit, one: &dyn Outsider, enough: f64) -> Option<Fit> {
-    // What a refinement takes away is not known before it is fitted.
-    let bound = enough + UNREFINED * (start.misfit - enough).max(0.0);
-    let shapes = one.starts(&bench.scale).into_iter().map(|values| Acting {
-        effect: one.effect(),
+/// Causes beside which laws are tried, fitted without them, of long records to few samples as well.
+struct Beside<'a> {
+    bench: &'a Bench,
+    start: Fit,
+    coarsely: Option<Coarsely>,
+}
+
+impl Beside<'_> {
+    fn of<'a>(bench: &'a Bench, found: &Found, causes: Vec<Acting>) -> Beside<'a> {
+        let start = match causes.is_empty() {
+            true => found.baseline.clone(),
+            false if causes == found.best.effects => found.best.clone(),
+            false => refit(&bench.train, &found.best, causes),
+        };
+        Beside {
+            bench,
+            coarsely: Coarsely::of(&bench.train, &start),
+            start,
+        }
+    }
+
+    /// The best fit with a law beside them, where its values are no cause's; without a prospect of a misfit below `enough`
+    /// only begun.
+    fn fitted(&self, law: Law, enough: f64) -> Option<Fit> {
+        let Bench { train, scale, .. } = self.bench;
+        let own = |fit: &Fit| {
+            fit.effect(law.name())
+                .is_some_and(|a| law.plausible(&a.values, scale))
+        };
+        // What a refinement takes away is not known before it is fitted.
+        let bound = enough + UNREFINED * (self.start.misfit - enough).max(0.0);
+        let best = |problem: &Problem, start: &Fit, bound: f64| {
+            let shapes = shapes(problem, scale, start, law).into_iter();
+            let fits = shapes.map(|effects| {
+                let fit = refit_below(problem, start, effects, bound);
+                refined((problem, scale), law, fit, bound)
+            });
+            let own = fits.filter(own);
+            own.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+        };
+        let fit = match &self.coarsely {
+            None => best(train, &self.start, bound),
+            Some(coarsely) => {
+                let fit = coarsely.fitted((train, &self.start), bound, best)?;
+                Some(refined((train, scale), law, fit, bound))
+            }
+        };
+        fit.filter(own)
+    }
+}
+
+/// Sets with the shapes of a law that take most away to first order.
+fn shapes(problem: &Problem, scale: &Scale, start: &Fit, law: Law) -> Vec<Vec<Acting>> {
+    let shapes = law.starts(scale).into_iter().map(|values| Acting {
+        effect: law.effect(),
         values,
     });
-    let mut scored: Vec<Score> = scores(&bench.train, start, &shapes.collect::<Vec<_>>());
+    let mut scored: Vec<Score> = scores(problem, start, &shapes.collect::<Vec<_>>());
     scored.sort_by(|a, b| b.fall.total_cmp(&a.fall));
-    let fits = scored.into_iter().take(SHAPES).map(|score| {
-        let mut effects = start.effects.clone();
-        effects.push(score.acting);
-        let fit = refit_below(&bench.train, start, effects, bound);
-        if fit.misfit > bound {
-            return fit;
+    let with = |score: Score| [start.effects.as_slice(), &[score.acting]].concat();
+    scored.into_iter().take(SHAPES).map(with).collect()
+}
+
+/// The fit with the refinements of the law, which comes last, where it leaves less than `bound`.
+fn refined((problem, scale): (&Problem, &Scale), law: Law, fit: Fit, bound: f64) -> Fit {
+    match fit.effects.last() {
+        Some(own) if fit.misfit <= bound => {
+            let place = fit.effects.len() - 1;
+            let refined = law.refined(&own.values, scale);
+            let nearby = fit.misfit;
+            better(problem, fit, (place, refined), nearby)
         }
-        let place = fit.effects.len() - 1;
-        let refined = one.refined(&fit.effects[place].values, &bench.scale);
-        let nearby = fit.misfit;
-        better(&bench.train, fit, (place, refined), nearby)
-    });
-    let own = |fit: &Fit| {
-        let acting = fit.effect(one.name());
-        acting.is_some_and(|a| one.plausible(&a.values, &bench.scale))
-    };
-    fits.filter(own)
-        .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+        _ => fit,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::diagnose::prepare::prepare;
-    use crate::identify::Form;
     use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, baseline};
     use crate::record::Record;
+    use crate::record::noise::tests::drawn;
+
+    /// A displacement whose amplifier warms up within the first third of 16 000 samples, in white noise.
+    fn warming() -> Bench {
+        let mut noise = drawn(20261130);
+        let time: Vec<f64> = (0..16_000).map(|i| 0.01 * f64::from(i)).collect();
+        let level = |t: &f64| if *t < 80.0 { 40.0 } else { 60.0 };
+        let force: Vec<f64> = time.iter().map(|t| level(t) * (0.5 * t).sin()).collect();
+        let read = |(f, t): (&f64, &f64)| {
+            let gain = 1.0 + 0.02 * (1.0 - (-t / 30.0).exp());
+            1e-8 * f * gain + 3e-9 * noise()
+        };
+        let record = Record {
+            name: "warming".to_string(),
+            displacement: force.iter().zip(&time).map(read).collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        prepare(Form::Play, &[record], &[Beginning::default()])
+    }
+
+    /// What few samples have told of a law is fitted to all, as if all had been asked.
+    #[test]
+    fn laws_outside_are_tried_by_few_samples_with_the_same_end() {
+        let bench = warming();
+        let plain = baseline(&bench.train);
+        let found = Found::unasked(plain.clone(), plain.clone(), Vec::new());
+        let mut beside = Beside::of(&bench, &found, Vec::new());
+        let enough = least_likely(&bench, (&plain, alarm(&bench.train)), &plain);
+        let fitted = |beside: &Beside| {
+            let all = usable(&bench, true).into_iter();
+            let fits = all.filter_map(|law| Some((beside.fitted(law, enough)?, law.name())));
+            fits.min_by(|a, b| a.0.misfit.total_cmp(&b.0.misfit))
+                .unwrap()
+        };
+        assert!(beside.coarsely.is_some());
+        let (few, law) = fitted(&beside);
+        beside.coarsely = None;
+        let (all, same) = fitted(&beside);
+        assert_eq!((law, same), ("warming_gain", "warming_gain"));
+        assert!((few.misfit - all.misfit).abs() < 0.5 && few.misfit < enough);
+        let rates = [few, all].map(|fit| fit.effects[0].values[1] * 30.0);
+        assert!(
+            rates.iter().all(|rate| (rate - 1.0).abs() < 0.3),
+            "{rates:?}"
+        );
+    }
 
     #[test]
     fn a_joint_that_goes_on_is_none_that_was_made_anew() {

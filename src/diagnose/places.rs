@@ -40,9 +40,8 @@ pub fn places(
     };
     (0..best.effects.len())
         .map(|place| {
-            let mut others = best.effects.clone();
-            let named = others.remove(place).effect.name();
-            let less = alone(problem, best, others, first);
+            let named = best.effects[place].effect.name();
+            let less = alone(problem, best, best.others(place), first);
             let brought = less.misfit - best.misfit;
             let wanted = as_well(problem, best, brought).max(exchanged);
             let known = known.take_if(|_| place + 1 == best.effects.len());
@@ -72,16 +71,17 @@ pub fn places(
 /// held-out ones are predicted worse than those, and is itself taken to leave as much of each kind.
 fn worth_exchanging(bench: &Bench, best: &Fit) -> f64 {
     let rows = bench.train.rows() as f64;
-    let beyond = left_of_all(bench, best) - exchange_gains(bench, best);
+    let left = left_of_all(bench, best);
+    let beyond = left - exchange_gains(bench, best, left);
     let fitted = rows / (rows + unseen_rows(bench));
     best.misfit.max(rows + fitted * beyond)
 }
 
 /// What an exchange has to gain: more than chance, and a share of what the set leaves beyond noise; of two that leave as
 /// much as that neither is right.
-fn exchange_gains(bench: &Bench, best: &Fit) -> f64 {
+fn exchange_gains(bench: &Bench, best: &Fit, left: f64) -> f64 {
     let chance = ALARM * dispersion(&bench.train, best);
-    chance.max(FURTHER_SHARE * left_of_all(bench, best))
+    chance.max(FURTHER_SHARE * left)
 }
 
 /// Misfit beyond noise of fitted samples and of held-out ones.
@@ -109,7 +109,7 @@ pub fn alone(problem: &Problem, best: &Fit, others: Vec<Acting>, first: &[Trial]
 /// The new one comes last, and its place's trials come along.
 pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Vec<Trial>)> {
     let scale = dispersion(&bench.train, best);
-    let least = exchange_gains(bench, best);
+    let least = exchange_gains(bench, best, left_of_all(bench, best));
     let cost = |fit: &Fit| scale * penalty(&bench.train, fit.free());
     let own = cost(best);
     places

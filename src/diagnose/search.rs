@@ -144,9 +144,7 @@ pub fn search(
     }
     // Without it another minimum of the others was met that leaves no more.
     while let Some(idle) = places.iter().position(|p| p.brought <= 0.0) {
-        let mut others = best.effects.clone();
-        others.remove(idle);
-        best = places::alone(&bench.train, &best, others, &first);
+        best = places::alone(&bench.train, &best, best.others(idle), &first);
         places = places::places(bench, timed, &best, &first, None);
     }
     let scale = dispersion(&bench.train, &best);

@@ -151,7 +151,7 @@ pub fn notes(records: &[Record], bench: &Bench, effects: &[Acting]) -> Vec<Strin
     if bench.whole.records.iter().any(|r| r.between.straight) {
         notes.push("The drive was taken to go straight from sample to sample, as one does that a program made: turns between samples, as a measured one has, leave more.".to_string());
     }
-    if bench.whole.wears_on && effects.iter().any(|a| a.effect.lasting() > 0) {
+    if bench.whole.wears_on && effects.iter().any(|a| a.effect.wears()) {
         notes.push("Wear goes on from record to record: they were taken for tests of one joint after the other, in the order given.".to_string());
     }
     for (k, record) in records.iter().enumerate() {

@@ -56,6 +56,13 @@ impl Fit {
         self.effects.iter().find(|a| a.effect.name() == name)
     }
 
+    /// Its effects but for the one at a place.
+    pub fn others(&self, place: usize) -> Vec<Acting> {
+        let mut others = self.effects.clone();
+        others.remove(place);
+        others
+    }
+
     /// Values of its effects that it chose, none of which is at its neutral value.
     pub fn free(&self) -> usize {
         self.effects.iter().map(Acting::free).sum()
@@ -160,9 +167,7 @@ fn with(problem: &Problem, fit: &Fit, effects: Vec<Acting>) -> (Reached, Fit) {
 
 /// The fit without one of its effects, the others as they are and the dictionary as it suits them.
 pub fn without(problem: &Problem, fit: &Fit, place: usize) -> Fit {
-    let mut others = fit.effects.clone();
-    others.remove(place);
-    suited(problem, fit, others)
+    suited(problem, fit, fit.others(place))
 }
 
 /// Refits as [`refit`] does, as long as there is a prospect of a misfit below `bound`.

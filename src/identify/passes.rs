@@ -52,7 +52,7 @@ impl Problem {
     fn follows_records(&self, effects: &[Acting]) -> bool {
         let goes_on = self.records.iter().any(|r| r.beginning.goes_on);
         let limits = |a: &Acting| goes_on && a.acts_at(Place::SlipLimit);
-        let lasts = |a: &Acting| a.effect.lasting() > 0;
+        let lasts = |a: &Acting| a.effect.wears();
         self.wears_on && effects.iter().any(|a| lasts(a) || limits(a))
     }
 

@@ -178,6 +178,10 @@ pub trait Effect: Send + Sync {
     fn lasting(&self) -> usize {
         0
     }
+    /// True of an effect whose history lasts: it wears the joint.
+    fn wears(&self) -> bool {
+        self.lasting() > 0
+    }
     /// Takes an accepted sample into the history.
     fn remember(&self, _values: &[f64], _now: &Situation, _memory: &mut [f64]) {}
     /// [`Place::SlipLimit`]: multipliers from the history and the last accepted situation; under a prescribed force its

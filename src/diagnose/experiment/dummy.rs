@@ -107,7 +107,7 @@ fn examine(
         }
     }
     let power = baseline(&simulated).misfit / dispersion(problem, &with);
-    let may_show = !cause.happens_once() && (timed || !cause.needs_time());
+    let may_show = !cause.happens_once() && (cause.is_told(timed));
     let ruling = match (fall > ALARM, fall >= PRESENT * power) {
         _ if !may_show => Ruling::Open,
         // Slip has loss and harmonics of its own.
@@ -161,8 +161,7 @@ pub fn settle(bench: &Bench, found: Found, dummy: &Record) -> Settled {
         let named = found.best.effects[place].clone();
         let mut set: Vec<String> = vec![named.effect.name().to_string()];
         set.extend(found.rivals.get(place).cloned().unwrap_or_default());
-        let mut others = found.best.effects.clone();
-        others.remove(place);
+        let others = found.best.others(place);
         // Every member with its values in the records.
         let mut members: Vec<Member> = set
             .iter()

@@ -30,7 +30,7 @@ impl Alone {
         let timed = dummy.time.is_some();
         let chain = CATALOGUE
             .iter()
-            .filter(|cause| cause.kind() == Kind::Measurement && (timed || !cause.needs_time()));
+            .filter(|cause| cause.kind() == Kind::Measurement && cause.is_told(timed));
         let fits: Vec<(&'static str, f64, f64)> = chain
             .map(|cause| {
                 let starts = cause.starts(&scale).into_iter();

@@ -42,7 +42,7 @@ pub fn look_ahead(
     let causes: Vec<&'static dyn Cause> = CATALOGUE
         .iter()
         .copied()
-        .filter(|c| timed || !c.needs_time())
+        .filter(|c| c.is_told(timed))
         .collect();
     let mut map = map(&problem, &whole.coefficients, &causes, &bench.scale, &known);
     tell(findings, &mut map, &problem, bench);
