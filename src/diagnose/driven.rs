@@ -2,12 +2,12 @@
 
 use super::coarsely::{trials, trials_again};
 use super::growing::leaves_structure;
-use super::however_begun::Virgin;
 use super::however_worn::however_worn;
 use super::investigation::Investigation;
 use super::prepare::prepare;
 use super::searched::quickly_searched;
 use super::trials::{ALARM, Effort, Trial, dispersion};
+use super::virgin::Virgin;
 use crate::identify::beginning::Beginning;
 use crate::identify::operators::Operators;
 use crate::identify::{Fit, Form, Problem, as_driven, baseline, refit_below};

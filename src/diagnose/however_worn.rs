@@ -3,13 +3,13 @@
 use super::coarsely::{trials_again, trials_of};
 use super::driven::leaves_less;
 use super::growing::{FURTHER_SHARE, leaves_structure, noise_alone};
-use super::however_begun::{Virgin, made_anew, sharply_searched};
+use super::however_begun::{made_anew, sharply_searched};
 use super::investigation::Investigation;
 use super::prepare::Bench;
 use super::search::{Found, alone};
 use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
-
+use super::virgin::Virgin;
 use crate::causes::Cause;
 use crate::identify::{Problem, suited};
 use crate::record::Record;
@@ -54,7 +54,7 @@ pub(super) fn however_worn(
 
 /// True of a cause that wears the joint, and of records it can be told by.
 fn wears(cause: &dyn Cause, timed: bool) -> bool {
-    cause.effect().lasting() > 0 && (timed || !cause.needs_time())
+    cause.effect().wears() && cause.is_told(timed)
 }
 
 /// What is found in records of virgin joints where wear goes on from one to the next, if one cause that wears leaves
@@ -110,7 +110,7 @@ impl Investigation {
         if train.records.len() < 2 || train.wears_on {
             return false;
         }
-        let worn = best.effects.iter().any(|a| a.effect.lasting() > 0);
+        let worn = best.effects.iter().any(|a| a.effect.wears());
         let mut on = train.clone();
         on.wears_on = true;
         let margin = ALARM * dispersion(train, best);
@@ -150,11 +150,7 @@ impl Investigation {
         let best = &self.found.best;
         let beyond = best.misfit - on.rows() as f64;
         let enough = best.misfit - FURTHER_SHARE * beyond;
-        let fewer = (0..best.effects.len()).map(|place| {
-            let mut others = best.effects.clone();
-            others.remove(place);
-            others
-        });
+        let fewer = (0..best.effects.len()).map(|place| best.others(place));
         let several = best.effects.len() > 1;
         let mut sets = fewer.filter(|_| several).chain([best.effects.clone()]);
         sets.any(|set| {
@@ -253,7 +249,7 @@ mod tests {
         let beyond = first.misfit - best.misfit;
         let mut on = bench.train.clone();
         on.wears_on = true;
-        let wearing = |cause: &dyn Cause| cause.effect().lasting() > 0;
+        let wearing = |cause: &dyn Cause| cause.effect().wears();
         let asked = (Effort::Full, f64::INFINITY);
         let others = trials_of(wearing, &on, &bench.scale, &first, asked);
         let taken = others

@@ -2,10 +2,9 @@
 
 use super::investigation::Investigation;
 use super::judged_channel::other_form;
-use super::noise_alone::beyond_noise;
 use super::prepare::Bench;
 use super::search::Found;
-use super::sober;
+use super::sober::Kept;
 use super::trials::alarm;
 use super::unseen_events::investigated;
 use super::without_drive_noise;
@@ -91,7 +90,7 @@ fn names(found: &Found) -> Vec<String> {
 
 /// What stays of a set: what noise of a drive makes is no cause in either form, nor the least bad of wrong explanations.
 fn kept(records: &[Record], bench: &Bench, found: &Found, timed: bool) -> Found {
-    beyond_noise(records, bench, sober(bench, found.clone(), timed))
+    Kept::of(records, bench, found.clone(), timed).found
 }
 
 #[cfg(test)]
