@@ -134,6 +134,9 @@ impl Cause for MainsHum {
     fn effect(&self) -> &'static dyn Effect {
         &MainsHum
     }
+    fn is_exact(&self) -> bool {
+        true
+    }
     fn needs_time(&self) -> bool {
         true
     }

@@ -151,6 +151,10 @@ pub trait Cause: Effect {
     fn is_told(&self, timed: bool) -> bool {
         timed || !self.needs_time()
     }
+    /// True where its law is what happens, as a tone is, so that no other cause mends it.
+    fn is_exact(&self) -> bool {
+        false
+    }
     /// True where it happens once, at a time of its own, so that another test need not have it.
     fn happens_once(&self) -> bool {
         false

@@ -9,8 +9,9 @@ use super::prepare::Bench;
 use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion};
-use crate::causes::Cause;
-use crate::identify::{Fit, Problem};
+use crate::causes::{Cause, find};
+use crate::identify::{Fit, Problem, refit};
+use crate::joint::effect::Acting;
 use rayon::prelude::*;
 
 /// Share of the misfit beyond noise that another set must explain of what a set leaves.
@@ -51,12 +52,11 @@ pub(super) fn grown(
     (baseline, trials): (&Fit, &[Trial]),
     (effort, wanted): (Effort, f64),
 ) -> Fit {
-    let least = least(&bench.train, baseline);
     let grow = Grow {
         bench,
         timed,
         effort,
-        least,
+        baseline,
         wanted,
     };
     // Of two neither may predict held-out cycles without the other.
@@ -88,8 +88,7 @@ struct Grow<'a> {
     bench: &'a Bench,
     timed: bool,
     effort: Effort,
-    /// Misfit that one cause of several has to take away.
-    least: f64,
+    baseline: &'a Fit,
     /// Misfit that sets of several have to reach.
     wanted: f64,
 }
@@ -135,10 +134,11 @@ impl Grow<'_> {
     fn on(&self, mut current: Fit, first: &[Trial]) -> Fit {
         let problem = &self.bench.train;
         while current.effects.len() < MOST {
+            let least = least(problem, self.baseline, &current.effects);
             let enough = match current.effects.len() {
-                1 => current.misfit - self.least.min(0.5 * structure(problem, &current)),
+                1 => current.misfit - least.min(0.5 * structure(problem, &current)),
                 // The last cause has to bring the set to what is wanted of it.
-                _ => (current.misfit - self.least).min(self.wanted),
+                _ => (current.misfit - least).min(self.wanted),
             };
             if enough < OVERRATED * problem.rows() as f64 {
                 break;
@@ -148,7 +148,7 @@ impl Grow<'_> {
             match self.next(&current, &trials, enough) {
                 Some(fit) if second => current = fit,
                 Some(fit) => {
-                    current = prune(self.bench, fit, self.least, first);
+                    current = prune(self.bench, self.baseline, fit, first);
                     break;
                 }
                 None => break,
@@ -233,15 +233,27 @@ pub(super) fn noise_alone(problem: &Problem, fit: &Fit) -> f64 {
     fit.misfit - structure_left(problem, fit)
 }
 
-/// Misfit that one cause of several has to take away beside the others.
-pub(super) fn least(problem: &Problem, baseline: &Fit) -> f64 {
-    NEARLY_RIGHT * (baseline.misfit - problem.rows() as f64).max(0.0)
+/// Misfit that one cause of several has to take away beside the others: a share of what those of a set do whose laws
+/// may be wrong, so of what is left beside those alone that are [exact](Cause::is_exact).
+fn least(problem: &Problem, baseline: &Fit, set: &[Acting]) -> f64 {
+    let exact = |a: &&Acting| find(a.effect.name()).is_some_and(|c| c.is_exact());
+    let exact: Vec<Acting> = set.iter().filter(exact).cloned().collect();
+    let left = match exact.is_empty() {
+        true => baseline.misfit,
+        false => refit(problem, baseline, exact).misfit,
+    };
+    NEARLY_RIGHT * (left - problem.rows() as f64).max(0.0)
 }
 
 /// Misfit that each of several causes has to take away: enough evidence, and its share, which is
 /// smaller the less they leave together: a law that is only nearly right is not mended wholly by another's. Where
 /// noise is what a model leaves, that tells nothing.
-pub(super) fn share(bench: &Bench, fit: &Fit, least: f64) -> f64 {
+pub(super) fn share(bench: &Bench, baseline: &Fit, fit: &Fit) -> f64 {
+    share_of(bench, fit, least(&bench.train, baseline, &fit.effects))
+}
+
+/// The same, of what a set leaves that has to be mended by `least`.
+fn share_of(bench: &Bench, fit: &Fit, least: f64) -> f64 {
     let problem = &bench.train;
     let left = places::beyond_doubt(bench, fit).max(0.0) / (STRUCTURE * problem.rows() as f64);
     let wanted = match bench.noise_is_repeated() {
@@ -251,9 +263,9 @@ pub(super) fn share(bench: &Bench, fit: &Fit, least: f64) -> f64 {
     (wanted * least).max(ALARM * dispersion(problem, fit))
 }
 
-/// Drops causes that the others have made needless; `least` is what one has to take away. A law whose values
+/// Drops causes that the others have made needless. A law whose values
 /// become those of another cause takes nobody's place: a rate that is remembered for ever is a path.
-pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) -> Fit {
+pub(super) fn prune(bench: &Bench, baseline: &Fit, mut fit: Fit, first: &[Trial]) -> Fit {
     let problem = &bench.train;
     while fit.effects.len() > 1 {
         let without: Option<Fit> = (0..fit.effects.len())
@@ -261,7 +273,7 @@ pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) ->
             .filter(|less| all_plausible(&bench.scale, less))
             .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
         match without {
-            Some(less) if less.misfit - fit.misfit < share(bench, &fit, least) => fit = less,
+            Some(less) if less.misfit - fit.misfit < share(bench, baseline, &fit) => fit = less,
             _ => break,
         }
     }
@@ -271,13 +283,11 @@ pub(super) fn prune(bench: &Bench, mut fit: Fit, least: f64, first: &[Trial]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::causes::find;
     use crate::diagnose::prepare::prepare;
     use crate::diagnose::search::alone;
     use crate::diagnose::search::tests::dashpot;
     use crate::identify::beginning::Beginning;
-    use crate::identify::{Form, baseline, refit};
-    use crate::joint::effect::Acting;
+    use crate::identify::{Form, baseline};
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
@@ -318,7 +328,7 @@ mod tests {
                 bench: &bench,
                 timed: true,
                 effort: Effort::Full,
-                least: least(&bench.train, &plain),
+                baseline: &plain,
                 wanted,
             };
             grow.on(two.clone(), &first)
@@ -343,7 +353,7 @@ mod tests {
                 bench,
                 timed: true,
                 effort: Effort::Full,
-                least: 0.0,
+                baseline: &plain,
                 wanted: f64::INFINITY,
             };
             let beside = grow.beside(&set, (Effort::Quick, f64::INFINITY));
@@ -356,6 +366,49 @@ mod tests {
         let wears = |name: &&str| find(name).unwrap().effect().wears();
         assert!(wearing.iter().all(wears));
         assert!(names(&bench, "running_in").iter().any(|name| !wears(name)));
+    }
+
+    /// Beside a loud hum a drift has to take a share of what hum alone leaves, not of the hum.
+    #[test]
+    fn no_other_cause_mends_a_tone() {
+        let mut noise = drawn(20261130);
+        let time: Vec<f64> = (0..2000).map(|i| 1e-3 * f64::from(i)).collect();
+        let force: Vec<f64> = time.iter().map(|t| 80.0 * (50.0 * t).sin()).collect();
+        let read = |t: &f64| {
+            let hum = 2e-7 * (std::f64::consts::TAU * 50.03 * t).sin();
+            1e-8 * 80.0 * (50.0 * t).sin() + hum + 4e-8 * t + 1e-8 * noise()
+        };
+        let record = Record {
+            name: "hum".to_string(),
+            displacement: time.iter().map(read).collect(),
+            force,
+            time: Some(time),
+            ..Record::default()
+        };
+        let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        let plain = baseline(&bench.train);
+        let of = |name: &str, values: &[f64]| Acting {
+            effect: find(name).unwrap().effect(),
+            values: values.to_vec(),
+        };
+        let hum = of("mains_hum", &[2e-7, 0.0, 50.03, 0.0, 0.0, 0.0, 0.0]);
+        let drift = of(
+            "displacement_drift",
+            &[4e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        );
+        let asked = |set: &[Acting]| least(&bench.train, &plain, set);
+        let all = NEARLY_RIGHT * (plain.misfit - bench.train.rows() as f64);
+        assert_eq!(asked(std::slice::from_ref(&drift)), all);
+        assert!(asked(&[drift.clone(), hum.clone()]) < 0.2 * all);
+        let set = refit(&bench.train, &plain, vec![hum, drift]);
+        let without = refit(&bench.train, &plain, set.others(1));
+        let takes = without.misfit - set.misfit;
+        assert!(
+            takes > share(&bench, &plain, &set) && takes < all,
+            "{takes}"
+        );
+        let kept = prune(&bench, &plain, set.clone(), &[]);
+        assert_eq!(kept.effects, set.effects);
     }
 
     /// Of a variance that sixteen cycles told, a set leaves no more than that may be wrong by, and then twice as much.
@@ -372,7 +425,7 @@ mod tests {
         let doubt = -places::beyond_doubt(&bench, &leaving(rows));
         assert!(doubt > 1.2 * scatter, "{doubt} {scatter}");
         let least = 1e6;
-        let asked = |misfit: f64| share(&bench, &leaving(misfit), least);
+        let asked = |misfit: f64| share_of(&bench, &leaving(misfit), least);
         assert_eq!(asked(rows + 0.5 * (scatter + doubt)), COMPLETE * least);
         assert!(asked(rows + 2.0 * doubt) > 1.1 * COMPLETE * least);
     }

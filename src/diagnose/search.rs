@@ -3,7 +3,7 @@
 
 use super::coarsely::trials;
 use super::finely::{finely, finely_anew};
-use super::growing::{grown, least, prune, share};
+use super::growing::{grown, prune, share};
 use super::places::{self, Place};
 use super::prepare::Bench;
 use super::tested::tested;
@@ -134,9 +134,8 @@ pub fn search(
         return Found::unasked(baseline, best, first);
     }
     let best = finely(bench, best);
-    let least = least(&bench.train, &baseline);
     let before = best.clone();
-    let (settled, mut places) = settled(bench, timed, least, best, &first);
+    let (settled, mut places) = settled(bench, timed, (&baseline, best), &first);
     let settled = finely_anew(bench, &before, settled);
     let mut best = tested(bench, &baseline, settled.clone());
     if best.effects != settled.effects {
@@ -164,8 +163,7 @@ pub fn search(
 fn settled(
     bench: &Bench,
     timed: bool,
-    least: f64,
-    mut best: Fit,
+    (baseline, mut best): (&Fit, Fit),
     first: &[Trial],
 ) -> (Fit, Vec<Place>) {
     let mut places = places::places(bench, timed, &best, first, None);
@@ -179,9 +177,9 @@ fn settled(
         best = better;
         places = places::places(bench, timed, &best, first, Some(known));
     }
-    let share = share(bench, &best, least);
+    let share = share(bench, baseline, &best);
     if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
-        best = prune(bench, best, least, first);
+        best = prune(bench, baseline, best, first);
         places = places::places(bench, timed, &best, first, None);
     }
     (best, places)
