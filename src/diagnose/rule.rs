@@ -71,3 +71,33 @@ impl Rule {
         least.map_or(0, |(i, _)| i)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_before_a_record_are_the_rule_where_it_does_not_start_at_zero() {
+        let asks = |at_zero: [bool; 2], both: [&Beginning; 2]| {
+            let rule = Rule {
+                at_zero: at_zero.to_vec(),
+            };
+            rule.asks_for(&both.map(Clone::clone))
+        };
+        let (virgin, moved) = (Beginning::default(), Beginning::at(0.2));
+        let loaded = Beginning {
+            turned: vec![-0.4],
+            ..Beginning::at(0.2)
+        };
+        let gone_on = Beginning {
+            goes_on: true,
+            ..Beginning::default()
+        };
+        assert!(asks([true, false], [&virgin, &loaded]));
+        assert!(asks([true, true], [&virgin, &gone_on]));
+        // Of another record, no load at all, and where none is the rule.
+        assert!(!asks([true, false], [&loaded, &virgin]));
+        assert!(!asks([true, false], [&virgin, &moved]));
+        assert!(!asks([true, true], [&virgin, &loaded]));
+    }
+}
