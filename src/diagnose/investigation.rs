@@ -19,10 +19,8 @@ const HALF: f64 = 0.5;
 const ROUNDS: usize = 3;
 
 /// Multiple of what a search leaves beyond noise that the same records may leave when they begin otherwise, before
-/// they are given up: of a little, and of a model that leaves much, which is itself not right. Judged: exchanging causes,
-/// which comes later, takes a part of that.
+/// they are given up. Judged: exchanging causes, which comes later, takes a part of that.
 const FAR: f64 = 4.0;
-const NO_BETTER: f64 = 1.25;
 
 /// Part of the noise's variance that counts as left at least.
 const SLIGHT: f64 = 0.1;
@@ -69,15 +67,13 @@ impl Investigation {
     }
 
     /// What other beginnings, drives or wear may leave of every row, as such a square, and still be asked further beside
-    /// what was found here: [`FAR`] times as much of a little beyond noise, [`NO_BETTER`] times of more, or [`FAR`] times of
-    /// all where noise is what the model leaves.
+    /// what was found here: [`FAR`] times as much beyond noise, or of all where noise is what the model leaves.
     pub(super) fn enough(&self) -> f64 {
         let rows = self.bench.train.rows().max(1) as f64;
-        let slight = SLIGHT + ALARM / rows;
-        let beyond = (FAR * slight).max(NO_BETTER * (self.dispersion() - 1.0));
+        let beyond = (self.dispersion() - 1.0).max(SLIGHT + ALARM / rows);
         match (self.found.unasked, self.bench.noise_is_repeated()) {
             (true, _) => f64::INFINITY,
-            (false, true) => self.bench.innovation_square() * (1.0 + beyond),
+            (false, true) => self.bench.innovation_square() * (1.0 + FAR * beyond),
             (false, false) => FAR * self.left(),
         }
     }
@@ -296,9 +292,9 @@ mod tests {
         assert!(!gains(&there, there[1].fit.misfit));
     }
 
-    /// Beside what leaves noise others may leave far more at first; beside what leaves much, hardly more than that.
+    /// Four times what is left beyond noise, of a model that leaves much as of one that leaves little.
     #[test]
-    fn what_leaves_much_is_no_reason_to_ask_what_leaves_more() {
+    fn others_may_leave_more_before_their_causes_are_exchanged() {
         let bench = dashpot(20261130);
         let plain = baseline(&bench.train);
         let rows = bench.train.rows() as f64;
@@ -315,7 +311,7 @@ mod tests {
             Investigation { bench, found }.enough() / innovation
         };
         assert!((1.4..1.5).contains(&enough(1.0)), "{}", enough(1.0));
-        assert!((enough(5.0) - 6.0).abs() < 1e-9);
+        assert!((enough(5.0) - 17.0).abs() < 1e-9);
     }
 
     /// Where the noise is what is left, every fit is judged by the weights that the last one gave.
