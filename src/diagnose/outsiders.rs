@@ -125,6 +125,7 @@ struct Likelier {
     fit: Fit,
 }
 
+/// The usable laws that are asked.
 fn those(usable: &[Law], asked: impl Fn(&Law) -> bool) -> Vec<Law> {
     usable.iter().copied().filter(asked).collect()
 }

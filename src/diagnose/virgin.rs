@@ -90,17 +90,19 @@ impl Virgin {
         let beyond = 2.0 * ALARM + penalty(&past.bench.train, sought);
         let near = past.found.best.misfit + beyond * past.dispersion();
         let half = 0.5 * (first.misfit + near);
+        let asked_now;
         let singles = match &self.alone {
-            Some(known) => known.clone(),
+            Some(known) => known,
             None => {
                 let asked = (Effort::Full, half);
-                trials(&bench.train, &bench.scale, timed, first, asked)
+                asked_now = trials(&bench.train, &bench.scale, timed, first, asked);
+                &asked_now
             }
         };
         let suits = |t: &Trial| {
             t.plausible && t.fit.misfit < half && left_on_own_cells(&bench.train, &t.fit) < near
         };
-        one_leaves(&singles, near) || singles.par_iter().any(suits)
+        one_leaves(singles, near) || singles.par_iter().any(suits)
     }
 }
 
