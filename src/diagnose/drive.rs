@@ -82,8 +82,8 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
     .collect()
 }
 
-/// What the baseline leaves.
-fn residuals(form: Form, records: &[Record]) -> Vec<Vec<f64>> {
+/// What the baseline leaves of records as they were read.
+pub(super) fn residuals(form: Form, records: &[Record]) -> Vec<Vec<f64>> {
     let problem = Problem::new(form, records);
     baseline(&problem).residuals(&problem)
 }

@@ -194,7 +194,8 @@ impl Grow<'_> {
         let enough = (best.misfit - FURTHER_SHARE * beyond).min(self.wanted);
         beginnings.truncate(BEGINNINGS);
         let pair = |one: &Trial| {
-            let trials = self.beside(&one.fit, (Effort::Quick, enough));
+            // A trial that is bound too tightly ends short of what it would reach.
+            let trials = self.beside(&one.fit, (Effort::Quick, best.misfit.min(self.wanted)));
             self.next(&one.fit, &trials, enough)
         };
         let pairs: Vec<Fit> = beginnings.into_par_iter().filter_map(pair).collect();

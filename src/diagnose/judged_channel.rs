@@ -95,13 +95,14 @@ pub(super) fn other_form(records: &[Record], form: Form) -> Option<(Form, f64)> 
 /// cycles that repeat show whole, a third is fast.
 const ALIKE: f64 = 3.0;
 
-/// The form in which the channel that repeats by itself drives: what answers it repeats up to its noise alone.
+/// The form in which the channel that repeats by itself drives: what answers it repeats up to its noise alone. Cycles whose
+/// differences are no noise repeat nothing.
 /// `None` where neither or both do.
 fn commanded(records: &[Record]) -> Option<Form> {
     let repeats = |form: Form| {
         let judged = records.iter().filter(|record| {
             let (drive, response) = form.channels(record);
-            from_repeats(drive, response).is_some()
+            from_repeats(drive, response).is_some_and(|noise| !noise.is_rather_structure())
         });
         judged.count()
     };
@@ -191,6 +192,24 @@ mod tests {
         cut(&mut of_cell.force, 0.27);
         assert_eq!(form(&[of_sensor]), Form::Play);
         assert_eq!(form(&[of_cell]), Form::Stop);
+    }
+
+    /// Force that repeats, and a displacement that drifts: steadily, or ever faster, by which its cycles differ.
+    #[test]
+    fn cycles_that_differ_by_what_is_no_noise_command_nothing() {
+        let drifted = |power: i32| {
+            let noise = white(4000);
+            let mut record = Record::default();
+            for (i, noise) in noise.iter().enumerate() {
+                let (force, t) = ((TAU * i as f64 / 200.0).sin(), i as f64 / 4000.0);
+                record.force.push(force);
+                let drift = 3.0 * t.powi(power);
+                record.displacement.push(force + drift + 1e-4 * noise);
+            }
+            commanded(&[record])
+        };
+        assert_eq!(drifted(1), Some(Form::Play));
+        assert_eq!(drifted(2), None);
     }
 
     /// A force that stays while the displacement goes on has no displacement of its own, however quiet it is.

@@ -43,10 +43,6 @@ pub struct Bench {
     pub wearing_sets: bool,
 }
 
-/// Correlation of neighbours above which what varies so slowly is rather structure than noise: noise of 0.9 is told as 0.93
-/// at most by a thousand samples, two standard deviations of `√((1 − a²)/n)` off.
-const SLOW: f64 = 0.93;
-
 /// Share of the noise's variance that a law only nearly right may leave: a third of the noise in rms.
 const NEARLY_RIGHT: f64 = 0.1;
 
@@ -147,7 +143,7 @@ impl Bench {
     pub fn noise_may_be_structure(&self) -> bool {
         self.noise
             .iter()
-            .any(|n| !n.repeated && n.autoregression > SLOW)
+            .any(|n| !n.repeated && n.is_rather_structure())
     }
 
     /// Sum of the logarithms of the noise's innovations squared, over the weighted samples.
