@@ -209,7 +209,7 @@ fn a_spring_law_past_its_fold_is_refused_in_either_drive() {
 fn a_negative_opening_compliance_is_refused_where_it_outweighs_the_joint() {
     let joint = one_slider(vec![acting(
         "joint_opening",
-        &[-3e-8, 1000.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        &[-3e-8, 1000.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     )]);
     for (drive, good, beyond) in [
         (Drive::Force, 900.0, 1500.0),

@@ -60,9 +60,18 @@ fn causes_without_a_history_of_their_own_answer_alike_at_any_step() {
         acting("cubic_stiffness", &[1e-14, 1e-5, 0.0, 0.0, 0.0, 0.0]),
         acting("cubic_stiffness", &[0.0, 0.0, 1e19, 1e9, 0.0, 0.0]),
         acting("cubic_stiffness", &[0.0, 0.0, 0.0, 0.0, 1e19, 1e9]),
-        acting("joint_opening", &[2e-9, 50.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        acting("joint_opening", &[0.0, 0.0, 0.0, 1e6, 1e-6, 0.0, 0.0]),
-        acting("joint_opening", &[0.0, 0.0, 0.0, 0.0, 0.0, 1e6, 1e-6]),
+        acting(
+            "joint_opening",
+            &[2e-9, 50.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        ),
+        acting(
+            "joint_opening",
+            &[0.0, 0.0, 0.0, 1e6, 1e-6, 0.0, 0.0, 0.0, 0.0],
+        ),
+        acting(
+            "joint_opening",
+            &[0.0, 0.0, 0.0, 0.0, 0.0, 1e6, 1e-6, 0.0, 2e-6],
+        ),
         acting("asymmetric_friction", &[0.2]),
     ];
     for case in cases {

@@ -82,6 +82,8 @@ OTHERS = {
         "closing": 1e-7,
         "contact_stiffness": 1e5,
         "contact_closing": 1e-7,
+        "opening_displacement": 1e-7,
+        "contact_opening": 1e-7,
     },
     "asymmetric_friction": {"asymmetry": 0.1},
     "normal_load_variation": {
