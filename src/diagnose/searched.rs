@@ -38,9 +38,12 @@ pub(super) fn searched(
     let again = again.map(|taught| {
         progress(KNOWN_BETTER);
         let first = baseline(&taught.bench.train);
-        let known = Some(taught.alone((&one.found.trials, &one.bench.train.operators), &first));
+        let known = taught.alone((&one.found.trials, &one.bench.train.operators), &first);
+        if taught.finds_the_same {
+            return taught.again(&one.found, (first, known));
+        }
         let mut bench = taught.bench;
-        let found = search(&mut bench, timed, (first, known), f64::INFINITY);
+        let found = search(&mut bench, timed, (first, Some(known)), f64::INFINITY);
         Investigation { bench, found }
     });
     match again {

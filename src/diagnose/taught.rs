@@ -1,7 +1,9 @@
 //! Records as a search of them teaches to read them: with the noise and on the cells that suit the causes it found.
 
 use super::coarsely::trials_again;
+use super::investigation::Investigation;
 use super::prepare::Bench;
+use super::search::Found;
 use super::trials::{ALARM, Effort, Trial, dispersion};
 use crate::identify::finer::finer;
 use crate::identify::operators::{COUNT, Operators};
@@ -22,6 +24,9 @@ const MOST: f64 = 0.5;
 /// cause explains, cells are the least of what is wrong.
 const NEARLY_NOISE: f64 = 1.5;
 
+/// The same from which less noise finds no other set: what is compared is what sets leave, of which noise is the least part.
+const FAR_FROM_NOISE: f64 = 2.0;
+
 /// Times that cells are spread anew by what was fitted on the last ones.
 const ROUNDS: usize = 3;
 
@@ -31,6 +36,8 @@ pub(super) struct Taught {
     pub(super) bench: Bench,
     /// The set, or one of a cause less.
     suits: Vec<Acting>,
+    /// True where the same set would be found: of less noise it leaves much more than that.
+    pub(super) finds_the_same: bool,
 }
 
 /// The records with less noise, where causes took away what repeated cycles had shown of them, and on other cells, where
@@ -54,6 +61,7 @@ pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Taught> {
     let mut taught = Taught {
         bench: bench.clone(),
         suits: best.effects.clone(),
+        finds_the_same: cells.is_none() && dispersion(train, best) > FAR_FROM_NOISE,
     };
     if let Some((suiting, fit)) = cells {
         taught.bench.whole.operators.clone_from(&suiting.operators);
@@ -67,6 +75,20 @@ pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Taught> {
 }
 
 impl Taught {
+    /// What was found, fitted to the records as they are read now.
+    pub(super) fn again(self, found: &Found, (first, known): (Fit, Vec<Trial>)) -> Investigation {
+        let best = refit(&self.bench.train, &found.best, found.best.effects.clone());
+        Investigation {
+            found: Found {
+                baseline: first,
+                best,
+                trials: known,
+                ..found.clone()
+            },
+            bench: self.bench,
+        }
+    }
+
     /// Every cause alone beside the baseline, from where it was found before; one that the records suit from where it was
     /// found beside others as well.
     pub(super) fn alone(&self, known: (&[Trial], &Operators), first: &Fit) -> Vec<Trial> {
@@ -298,26 +320,39 @@ mod tests {
         assert!(suits(0.02, &SOUNDS, 0.02).is_none());
     }
 
-    /// A sound that no cycle repeats is noise until a cause takes it away.
+    /// A sound that no cycle repeats is noise until a cause takes it away, beside what no cause explains too: that alone is
+    /// compared then.
     #[test]
     fn what_a_cause_takes_away_is_noise_no_longer() {
-        let mut noise = drawn(20261129);
-        let displacement = driven();
-        let sound = tone(&displacement);
-        let both = joint(&displacement, (1.0, 1.0)).into_iter().zip(&sound);
-        let force = both.map(|(f, s)| f + 0.5 * s + 0.2 * (noise() - 0.5));
-        let bench = bench(force.collect(), displacement);
-        let white = 0.2 / 12.0_f64.sqrt();
-        assert!(bench.noise[0].deviation > 4.0 * white, "{:?}", bench.noise);
-        let values = vec![0.5];
-        let best = with(
-            &bench,
-            Acting {
+        let told = |unexplained: f64| {
+            let mut noise = drawn(20261129);
+            let displacement = driven();
+            let sound = tone(&displacement);
+            let both = joint(&displacement, (1.0, 1.0)).into_iter().zip(&sound);
+            let force = both.map(|(f, s)| f + 0.5 * s + 0.2 * (noise() - 0.5));
+            let even = displacement.iter().map(|u| unexplained * u.cos());
+            let force = force.zip(even).map(|(f, e)| f + e).collect();
+            let bench = bench(force, displacement);
+            let white = 0.2 / 12.0_f64.sqrt();
+            assert!(bench.noise[0].deviation > 4.0 * white, "{:?}", bench.noise);
+            let sounds = Acting {
                 effect: &SOUNDS,
-                values,
-            },
-        );
-        let told = taught(&bench, &best).unwrap().bench.noise[0];
-        assert!((told.deviation / white - 1.0).abs() < 0.1, "{told:?}");
+                values: vec![0.5],
+            };
+            let best = with(&bench, sounds);
+            let told = taught(&bench, &best).unwrap();
+            let deviation = told.bench.noise[0].deviation;
+            assert!((deviation / white - 1.0).abs() < 0.1, "{deviation}");
+            (told, best)
+        };
+        // Another cause may be beneath the noise that was.
+        assert!(!told(0.0).0.finds_the_same);
+        let (told, best) = told(3.0);
+        assert!(told.finds_the_same);
+        let first = baseline(&told.bench.train);
+        let found = Found::unasked(first.clone(), best, Vec::new());
+        let again = told.again(&found, (first, Vec::new()));
+        assert_eq!(again.found.best.effects.len(), 1);
+        assert!(again.dispersion() > FAR_FROM_NOISE);
     }
 }
