@@ -29,8 +29,8 @@ const TIMES: f64 = 2.0;
 /// more of it.
 const LOUDER: f64 = 20.0;
 
-/// Draws of each kind of noise. Calming takes the noise of some and not of others: of one kind each they all are by one in
-/// sixty.
+/// Draws of each kind of noise. Calming takes the noise of some and not of others: where it does of half of them, it does of
+/// all by one in sixty.
 const DRAWN: u64 = 6;
 
 /// Share of what a model leaves, in variance, that is noise of the judged channel itself, at least.
@@ -104,6 +104,7 @@ impl Drives<'_> {
         let takes = without.misfit - best.misfit - alarm(train);
         let adds = self.noise.iter().map(|[_, adds]| adds).sum::<f64>();
         let slow = self.bench.noise.iter().any(|n| n.autoregression > SLOW);
+        // White noise adds what its fastest part tells, slow noise more.
         let kinds: &[(bool, f64)] = if slow {
             &[(false, TIMES), (true, LOUDER)]
         } else {
