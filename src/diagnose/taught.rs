@@ -75,7 +75,7 @@ pub(super) fn taught(bench: &Bench, best: &Fit) -> Option<Taught> {
 }
 
 impl Taught {
-    /// What was found, fitted to the records as they are read now.
+    /// What was found, fitted to the records as they are read now. What its causes bring over what is left is as it was.
     pub(super) fn again(self, found: &Found, (first, known): (Fit, Vec<Trial>)) -> Investigation {
         let best = refit(&self.bench.train, &found.best, found.best.effects.clone());
         Investigation {
@@ -83,7 +83,9 @@ impl Taught {
                 baseline: first,
                 best,
                 trials: known,
-                ..found.clone()
+                rivals: found.rivals.clone(),
+                evidence: found.evidence.clone(),
+                unasked: found.unasked,
             },
             bench: self.bench,
         }
