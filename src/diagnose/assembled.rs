@@ -1,10 +1,12 @@
 //! Findings from what was found: what is kept of it, what it leaves, what else may be at work, and the verdict.
 
 use super::compared::Compared;
+use super::drawn_drives::Drives;
 use super::experiment::Outlook;
 use super::findings::{Estimate, Findings, NoiseFinding, Unexplained, Verdict};
 use super::joint_parameters::{bounds_slip_force, joint_parameters};
 use super::left_out::{LeftOut, bears_out, left_out};
+use super::noise_alone::OfNoise;
 use super::outsiders::{doubles, outsiders};
 use super::prepare::Bench;
 use super::probability::unlisted;
@@ -36,7 +38,7 @@ struct Told {
 impl Told {
     fn of(
         (records, timed): (&[Record], bool),
-        bench: &Bench,
+        (bench, drives): (&Bench, Option<&Drives>),
         kept: &Kept,
         compared: &Compared,
         against: Vec<String>,
@@ -44,7 +46,7 @@ impl Told {
         let (whole, modelled) = (&compared.whole, &compared.modelled);
         let (outsiders, (left_out, parameters)) = rayon::join(
             // A law outside is refitted as the search refits: smoothed, what was found would leave more than it did.
-            || outsiders(bench, &kept.found, (timed, kept.taken_back)),
+            || outsiders((bench, drives), &kept.found, (timed, kept.taken_back)),
             || {
                 rayon::join(
                     || left_out(bench, whole),
@@ -100,11 +102,14 @@ pub(super) fn assembled(
     against: Vec<String>,
 ) -> Result<(Findings, Found, Fit), JointError> {
     let timed = records.iter().all(|r| r.time.is_some());
-    let kept = Kept::of(records, bench, found, timed);
+    let drives = Drives::of(records, bench);
+    let drives = drives.as_ref();
+    let kept = Kept::of(drives, bench, found, timed);
     let compared = Compared::of(bench, &kept.found);
-    let told = Told::of((records, timed), bench, &kept, &compared, against)?;
-    let verdict = verdict_of(bench, &kept.found, &compared, &told);
-    let notes = notes(records, bench, (&kept, &compared), told.said);
+    let told = Told::of((records, timed), (bench, drives), &kept, &compared, against)?;
+    let (verdict, by_noise) = verdict_of((bench, drives), &kept.found, &compared, &told);
+    let mut notes = notes(records, bench, (&kept, &compared), told.said);
+    notes.extend(by_noise.then(words::left_by_drive_noise));
     let Compared {
         found,
         whole,
@@ -168,22 +173,39 @@ pub(super) fn assembled(
     Ok((findings, found, whole))
 }
 
-fn verdict_of(bench: &Bench, sober: &Found, compared: &Compared, told: &Told) -> Verdict {
+/// The verdict, and whether it is another one for what noise of the drives leaves by itself, which is asked where more than
+/// noise of the judged channel is left.
+fn verdict_of(
+    (bench, drives): (&Bench, Option<&Drives>),
+    sober: &Found,
+    compared: &Compared,
+    told: &Told,
+) -> (Verdict, bool) {
     let named = !compared.whole.effects.is_empty();
     let (_, beyond_noise) = compared.left();
-    verdict(
-        named.then(|| compared.may_explain(bench) && told.doubles.is_empty()),
-        &compared.structure_before,
-        &compared.structure_after,
-        (bench.most_left(), bench.is_read_to_the_end()),
-        compared.chi(bench),
-        (
-            // Trials are as the search left them; a smoothed baseline leaves more than the one they began from.
-            unlisted(&bench.train, sober, beyond_noise),
-            told.toned,
-            told.outside,
-        ),
-    )
+    let beside = |of_noise: OfNoise| {
+        verdict(
+            named.then(|| compared.may_explain(bench) && told.doubles.is_empty()),
+            &compared.structure_before,
+            &compared.structure_after,
+            (bench.most_left(), bench.is_read_to_the_end(), of_noise),
+            compared.chi(bench),
+            (
+                // Trials are as the search left them; a smoothed baseline leaves more than the one they began from.
+                unlisted(&bench.train, sober, beyond_noise),
+                told.toned,
+                told.outside,
+            ),
+        )
+    };
+    let said = beside(OfNoise::default());
+    match (said, drives) {
+        (Verdict::Unexplained | Verdict::PartlyExplained, Some(drives)) => {
+            let then = beside(drives.leave(&compared.whole));
+            (then, then != said)
+        }
+        _ => (said, false),
+    }
 }
 
 /// What is said of channels that do not go together, of the records, of names that noise may have brought, of the joint and of jumps.

@@ -8,6 +8,7 @@ mod catalogue;
 mod coarsely;
 mod compared;
 mod curves;
+mod drawn_drives;
 mod drive;
 mod driven;
 pub mod experiment;

@@ -1,25 +1,12 @@
-//! What noise of the drive alone would make of a cause: records drawn as these are, but for it.
+//! What noise of the drive alone would make of a cause, or leave: records drawn as these are, but for it.
 
-use super::drive::{drive_noise, residuals, without_drive_noise};
-use super::prepare::{Bench, prepare};
+use super::drawn_drives::{DRAWN, Draw, Drives};
+use super::prepare::Bench;
 use super::search::Found;
-use super::smooth_drive::felt;
+use super::structure::structure;
 use super::trials::{alarm, dispersion};
-use crate::identify::beginning::Beginning;
-use crate::identify::{Fit, Form, Problem, refit};
-use crate::record::Record;
-use crate::record::calm::fastest;
-use crate::record::cycles::rms;
-use crate::record::resolution::step_of_drive;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use crate::identify::{Fit, Problem, refit};
 use rayon::prelude::*;
-
-/// What the noise of a drive adds, in variances of the judged channel's, from which it may pass for a cause.
-const MAY: f64 = 1.0;
-
-/// Correlation of neighbours in what a model leaves from which that may be of the drive's noise as well.
-const SLOW: f64 = 0.3;
 
 /// Times as much as of noise that a cause has to take. Judged: of clean records causes took 1.0 to 1.5 times the most of
 /// several draws, of records with a cause ten times and more.
@@ -29,12 +16,29 @@ const TIMES: f64 = 2.0;
 /// more of it.
 const LOUDER: f64 = 20.0;
 
-/// Draws of each kind of noise. Calming takes the noise of some and not of others: where it does of half of them, it does of
-/// all by one in sixty.
-const DRAWN: u64 = 6;
+/// Times that noise which nothing but the best model tells is told by what that leaves.
+const ROUNDS: usize = 2;
 
-/// Share of what a model leaves, in variance, that is noise of the judged channel itself, at least.
-const OWN: f64 = 0.1;
+/// What noise of the drives leaves, at most, of records that have nothing else.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct OfNoise {
+    /// Share of the noise's variance that means over bins share, as [`Structure::share`](super::structure::Structure).
+    pub(super) share: f64,
+    /// Mean whitened square beyond that of the noise.
+    pub(super) beyond: f64,
+}
+
+impl OfNoise {
+    /// True where a share is no more than noise leaves, or may.
+    pub(super) fn leaves_as_structured(&self, share: f64) -> bool {
+        share < TIMES * self.share
+    }
+
+    /// The same of a mean whitened square.
+    pub(super) fn leaves_as_much(&self, square: f64) -> bool {
+        square - 1.0 < TIMES * self.beyond
+    }
+}
 
 /// What was found without the causes that take no more of the records than of such as noise of the drive makes without
 /// them: whatever smooths a noisy drive, or follows how fast it changes, explains some of its noise.
@@ -42,24 +46,20 @@ const OWN: f64 = 0.1;
 /// A parametric bootstrap of the null hypothesis (Efron and Tibshirani 1993, 16.6) for each cause beside the others. The
 /// noise is as loud in its fastest part as that of the drive; where what is left is slow, slow noise of either channel is
 /// drawn in turn. Checked by the tests below.
-pub(super) fn beyond_noise(records: &[Record], bench: &Bench, found: Found) -> Found {
-    let form = bench.train.operators.form;
-    let noise = unfelt_noise(form, records);
-    if is_quiet(&noise) {
+pub(super) fn beyond_noise(drives: Option<&Drives>, bench: &Bench, found: Found) -> Found {
+    let Some(drives) = drives else {
         return found;
-    }
-    let drives = Drives {
-        records,
-        bench,
-        noise,
     };
     let mut found = found;
     loop {
         let places = 0..found.best.effects.len();
-        let by_noise = places
-            .filter(|k| drives.takes_as_much(&found, *k))
-            .collect();
-        let left = found.clone().without(bench, by_noise);
+        let by_noise = |k: &usize| {
+            let without = found.clone().without(bench, vec![*k]).best;
+            drives.make_as_much((&without, &found.best))
+        };
+        let left = found
+            .clone()
+            .without(bench, places.filter(by_noise).collect());
         if left.best.effects.len() == found.best.effects.len() {
             return left;
         }
@@ -67,52 +67,20 @@ pub(super) fn beyond_noise(records: &[Record], bench: &Bench, found: Found) -> F
     }
 }
 
-/// Noise of each drive, and what it may add to the misfit; none that the joint felt, which is told of the drives as they were
-/// read: of calmed ones a model makes nothing of their noise.
-fn unfelt_noise(form: Form, records: &[Record]) -> Vec<[f64; 2]> {
-    let mut noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
-    if is_quiet(&noise) {
-        return noise;
-    }
-    let residuals = residuals(form, records);
-    for ((noise, record), residual) in noise.iter_mut().zip(records).zip(&residuals) {
-        let (drive, judged) = form.channels(record);
-        if felt(drive, judged, residual) {
-            *noise = [0.0; 2];
-        }
-    }
-    noise
-}
-
-fn is_quiet(noise: &[[f64; 2]]) -> bool {
-    noise.iter().all(|[_, adds]| *adds < MAY)
-}
-
-/// Records whose drives are noisy.
-struct Drives<'a> {
-    records: &'a [Record],
-    bench: &'a Bench,
-    /// Noise of each drive, and what it may add to the misfit.
-    noise: Vec<[f64; 2]>,
-}
-
 impl Drives<'_> {
-    /// True where a cause of the set takes no more than noise of the drives gives it.
-    fn takes_as_much(&self, found: &Found, k: usize) -> bool {
-        let (train, best) = (&self.bench.train, &found.best);
-        let without = found.clone().without(self.bench, vec![k]).best;
-        let takes = without.misfit - best.misfit - alarm(train);
-        let adds = self.noise.iter().map(|[_, adds]| adds).sum::<f64>();
-        let slow = self.bench.noise.iter().any(|n| n.autoregression > SLOW);
+    /// True where a set with a law takes no more beyond one without than noise of the drives gives it.
+    pub(super) fn make_as_much(&self, (without, with): (&Fit, &Fit)) -> bool {
+        let takes = without.misfit - with.misfit - alarm(&self.bench.train);
+        let adds = self.adds();
         // White noise adds what its fastest part tells, slow noise more.
-        let kinds: &[(bool, f64)] = if slow {
+        let kinds: &[(bool, f64)] = if self.may_be_slow() {
             &[(false, TIMES), (true, LOUDER)]
         } else {
             &[(false, TIMES)]
         };
         let may = kinds.iter().filter(|(_, most)| takes < most * adds);
         may.into_iter().any(|&(slow, _)| {
-            let of_noise = |seed: u64| self.fall((&without, best), (slow, seed));
+            let of_noise = |seed: u64| self.fall((without, with), (slow, seed));
             let draws = (0..DRAWN).into_par_iter();
             draws.any(|seed| takes < TIMES * of_noise(seed))
         })
@@ -120,13 +88,8 @@ impl Drives<'_> {
 
     /// Misfit that a set with a cause takes beyond one without of records that are as the one without has them, by what that
     /// leaves of a row: their noise is told anew, where no cycle tells it from neighbours, and of slow noise those tell little.
-    fn fall(&self, (without, with): (&Fit, &Fit), (slow, seed): (bool, u64)) -> f64 {
-        let form = self.bench.train.operators.form;
-        let drawn = self.drawn(without, (slow, seed));
-        let begun = self.bench.train.records.iter();
-        let beginnings: Vec<Beginning> = begun.map(|r| r.beginning.clone()).collect();
-        let mut of_noise = prepare(form, &without_drive_noise(form, &drawn), &beginnings);
-        of_noise.fit_also(self.bench.fitted);
+    fn fall(&self, (without, with): (&Fit, &Fit), draw: Draw) -> f64 {
+        let of_noise = self.read_anew(without, draw);
         // The thresholds are those of the fits.
         let problem = Problem {
             records: of_noise.train.records,
@@ -136,80 +99,61 @@ impl Drives<'_> {
         (without.misfit - with.misfit) / dispersion(&problem, &without)
     }
 
-    /// The records as a model has them, with noise in the drive of which the joint felt nothing.
-    fn drawn(&self, model: &Fit, (slow, seed): (bool, u64)) -> Vec<Record> {
-        let mut random = ChaCha8Rng::seed_from_u64(20_010_811 + seed);
-        let whole = &self.bench.whole;
-        let (predicted, left) = (model.predict(whole), model.residuals(whole));
-        let one = |(k, record): (usize, &Record)| {
-            let alike = self.bench.noise[k].autoregression;
-            let (of_drive, of_judged) = if slow { (alike, 0.0) } else { (0.0, alike) };
-            let left = rms(&left[k]);
-            let prepared = &whole.records[k];
-            let (drive, judged) = (whole.channels(k).0, &predicted[k].judged);
-            let true_drive: Vec<f64> = drive.iter().map(|x| x + prepared.beginning.zero).collect();
-            let channels = whole.operators.form.channels(record);
-            let (read, answered) = match step_of_drive(channels.0, channels.1) {
-                Some(step) => {
-                    let read = true_drive.iter().map(|x| (x / step).round() * step);
-                    (read.collect(), 0.0)
-                }
-                None => self.with_noise((k, record), &true_drive, (of_drive, left), &mut random),
+    /// What a set leaves, at most of several draws, of records that are as it has them but for noise of the drives.
+    pub(super) fn leave(&self, set: &Fit) -> OfNoise {
+        let slow = [false, true]
+            .into_iter()
+            .take(1 + usize::from(self.may_be_slow()));
+        let draws: Vec<Draw> = slow
+            .flat_map(|slow| (0..DRAWN).map(move |seed| (slow, seed)))
+            .collect();
+        let left = draws.into_par_iter().map(|draw| self.left(set, draw));
+        left.reduce(OfNoise::default, |a, b| OfNoise {
+            share: a.share.max(b.share),
+            beyond: a.beyond.max(b.beyond),
+        })
+    }
+
+    fn left(&self, set: &Fit, draw: Draw) -> OfNoise {
+        let mut of_noise = self.read_anew(set, draw);
+        let Bench { whole, train, .. } = self.bench;
+        for (problem, own) in [(&mut of_noise.whole, whole), (&mut of_noise.train, train)] {
+            *problem = Problem {
+                records: std::mem::take(&mut problem.records),
+                ..own.clone()
             };
-            let own = (left * left - answered * answered).max(OWN * left * left);
-            let noise = coloured(&mut random, judged.len(), of_judged, own.sqrt());
-            let judged = judged.iter().zip(noise).map(|(y, f)| y + f).collect();
-            let mut drawn = record.clone();
-            let (of_drive, of_judged) = whole.operators.form.channels_mut(&mut drawn);
-            (*of_drive, *of_judged) = (read, judged);
-            drawn
-        };
-        self.records.iter().enumerate().map(one).collect()
+        }
+        for _ in 0..ROUNDS {
+            let first = refit(&of_noise.train, set, set.effects.clone());
+            of_noise.weigh_what_is_left(&first);
+        }
+        let whole = &of_noise.whole;
+        let fit = refit(whole, set, set.effects.clone());
+        OfNoise {
+            share: structure(whole, &fit.predict(whole), &of_noise.noise).share,
+            beyond: fit.misfit / whole.rows().max(1) as f64 - 1.0,
+        }
     }
-
-    /// A drive as its channel reads it, and what a model answers to the noise, at most what it leaves.
-    fn with_noise(
-        &self,
-        (k, record): (usize, &Record),
-        drive: &[f64],
-        (alike, left): (f64, f64),
-        random: &mut ChaCha8Rng,
-    ) -> (Vec<f64>, f64) {
-        let [loud, adds] = self.noise[k];
-        let (_, judged) = self.bench.train.operators.form.channels(record);
-        let steepest = (adds / drive.len() as f64).sqrt() * fastest(judged) / loud;
-        let noise = coloured(random, drive.len(), alike, 1.0);
-        let loud = (loud / fastest(&noise)).min(left / steepest);
-        let read = drive.iter().zip(&noise).map(|(x, e)| x + loud * e);
-        (read.collect(), steepest * loud)
-    }
-}
-
-/// Noise of a deviation whose neighbours go together.
-fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -> Vec<f64> {
-    let mut last = 0.0;
-    let mut next = || {
-        // Twelve uniform numbers have the variance one, and a sum that is nearly normal.
-        let white = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
-        last = alike * last + (1.0 - alike * alike).sqrt() * white;
-        deviation * last
-    };
-    (0..count).map(|_| next()).collect()
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use super::super::drive::without_drive_noise;
+    use super::super::prepare::prepare;
     use super::*;
     use crate::causes::find;
     use crate::diagnose::diagnose;
+    use crate::diagnose::findings::Verdict;
     use crate::diagnose::gridded::tests::slid;
-    use crate::identify::baseline;
+    use crate::identify::beginning::Beginning;
+    use crate::identify::{Form, baseline};
     use crate::joint::effect::Acting;
+    use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
     /// Cycles of 79 samples that fall, slow noise in the displacement that drives and noise as loud in the force, which a
     /// cell reads so many samples late.
-    fn falling(seed: u64, late: usize) -> Record {
+    pub(in crate::diagnose) fn falling(seed: u64, late: usize) -> Record {
         let mut random = drawn(seed);
         let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
         let limits: Vec<f64> = (1..=40).map(|j| 0.03 * f64::from(j)).collect();
@@ -260,29 +204,76 @@ mod tests {
         assert!(all_said, "nothing was taken back");
     }
 
+    /// Cycles of 148 samples at four levels of the displacement, of a joint of 60 sliders the farther apart the harder, with noise
+    /// as loud in both channels; on the way back the force lacks such a share of itself where it is large.
+    fn stepped(seed: u64, smaller: f64) -> Record {
+        let mut random = drawn(seed);
+        let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let limits: Vec<f64> = (1..=60).map(|j| 4e-4 * f64::from(j * j)).collect();
+        let swings = |i: usize| {
+            let level = [0.3, 0.5, 0.75, 1.0][(i / 888).min(3)];
+            level * (std::f64::consts::TAU * i as f64 / 148.0).sin()
+        };
+        let displacement: Vec<f64> = (0..3552).map(swings).collect();
+        let force = slid(&limits, &displacement);
+        let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        let odd = |(i, f): (usize, f64)| {
+            let back = (std::f64::consts::TAU * i as f64 / 148.0).cos() < 0.0;
+            f - if back {
+                smaller * largest * (f / largest).powi(4)
+            } else {
+                0.0
+            }
+        };
+        let force = force.into_iter().enumerate().map(odd);
+        Record {
+            name: "stepped".to_string(),
+            force: force.map(|f| f + 0.004 * largest * white()).collect(),
+            displacement: displacement.iter().map(|u| u + 0.004 * white()).collect(),
+            time: Some((0..3552).map(|i| 4e-3 * i as f64).collect()),
+            ..Record::default()
+        }
+    }
+
+    /// Play by play the noise of a drive moves what a joint remembers until the next turn, which repeats with the load.
+    #[test]
+    fn what_noise_of_the_drive_leaves_is_no_structure() {
+        for (smaller, by_noise) in [(0.0, true), (0.1, false)] {
+            let records = [stepped(1, smaller)];
+            let calm = without_drive_noise(Form::Play, &records);
+            let bench = prepare(Form::Play, &calm, &[Beginning::default()]);
+            let plain = baseline(&bench.whole);
+            let left = structure(&bench.whole, &plain.predict(&bench.whole), &bench.noise);
+            assert!(left.goes_with_the_load() && left.share > 0.02);
+            let of_noise = Drives::of(&records, &bench).unwrap().leave(&plain);
+            assert_eq!(
+                of_noise.leaves_as_structured(left.share),
+                by_noise,
+                "{of_noise:?} {left:?}"
+            );
+            let square = plain.misfit / bench.whole.rows() as f64;
+            assert_eq!(
+                of_noise.leaves_as_much(square),
+                by_noise,
+                "{of_noise:?} {square}"
+            );
+        }
+    }
+
+    #[test]
+    fn records_with_noise_in_both_channels_are_clean() {
+        for seed in [1, 3] {
+            let found = diagnose(&[stepped(seed, 0.0)], |_| {}).unwrap();
+            assert_eq!(found.verdict, Verdict::Clean, "{seed}: {}", found.summary);
+            let said = |n: &String| n.contains("driving channel alone leaves");
+            assert!(found.notes.iter().any(said), "{seed}: {:?}", found.notes);
+        }
+    }
+
     #[test]
     fn a_cause_beside_noise_in_the_drive_is_one() {
         let (causes, said) = named(falling(1, 3));
         assert!(causes == ["sensor_delay"] && !said, "{causes:?}");
-    }
-
-    /// Noise of a channel is not felt, be a drive that is calmed without it.
-    #[test]
-    fn noise_that_was_read_alone_is_not_felt() {
-        for seed in 1..=4 {
-            let record = [falling(seed, 0)];
-            let [_, adds] = unfelt_noise(Form::Stop, &record)[0];
-            assert!(adds > MAY, "{seed}: {adds}");
-            let calm = without_drive_noise(Form::Stop, &record);
-            assert_ne!(calm[0].displacement, record[0].displacement);
-        }
-        // A joint that moves as its displacement is read feels all of it.
-        let read = falling(1, 0);
-        let felt = Record {
-            force: slid(&[0.5, 1.0], &read.displacement),
-            ..read
-        };
-        assert_eq!(unfelt_noise(Form::Stop, &[felt]), [[0.0; 2]]);
     }
 
     /// A sweep, in which no cycle tells the noise, in slow noise of the displacement and a little of the force: what neighbours
@@ -316,11 +307,7 @@ mod tests {
             values: vec![2e-5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         };
         let with = refit(&bench.train, &without, vec![acting]);
-        let drives = Drives {
-            records,
-            bench: &bench,
-            noise: vec![drive_noise(Form::Play, &record)],
-        };
+        let drives = Drives::of(records, &bench).unwrap();
         let fall = (0..DRAWN).map(|seed| drives.fall((&without, &with), (false, seed)));
         let fall: Vec<f64> = fall.collect();
         // χ²₃, in one of a thousand 16.3, of noise that goes together by 0.95 taken for white: (1 + a)/(1 − a) times as much.
@@ -346,11 +333,7 @@ mod tests {
             values: vec![0.0, 0.0, 1e-3],
         };
         let with = refit(&bench.train, &without, vec![acting]);
-        let drives = Drives {
-            records: std::slice::from_ref(&record),
-            bench: &bench,
-            noise: vec![drive_noise(Form::Stop, &record)],
-        };
+        let drives = Drives::of(std::slice::from_ref(&record), &bench).unwrap();
         let takes = without.misfit - with.misfit;
         let of_noise = drives.fall((&without, &with), (false, 0));
         assert!(

@@ -1,5 +1,6 @@
 //! Records of which neither channel is plainly the quieter, seen in the other form as well.
 
+use super::drawn_drives::Drives;
 use super::investigation::Investigation;
 use super::judged_channel::other_form;
 use super::prepare::Bench;
@@ -90,7 +91,8 @@ fn names(found: &Found) -> Vec<String> {
 
 /// What stays of a set: what noise of a drive makes is no cause in either form, nor the least bad of wrong explanations.
 fn kept(records: &[Record], bench: &Bench, found: &Found, timed: bool) -> Found {
-    Kept::of(records, bench, found.clone(), timed).found
+    let drives = Drives::of(records, bench);
+    Kept::of(drives.as_ref(), bench, found.clone(), timed).found
 }
 
 #[cfg(test)]

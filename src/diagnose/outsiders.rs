@@ -1,6 +1,7 @@
 //! What is not in the catalogue and may be at work in place of what was named.
 
 use super::coarsely::Coarsely;
+use super::drawn_drives::Drives;
 use super::growing::leaves_structure;
 use super::prepare::Bench;
 use super::probability::temperature;
@@ -30,9 +31,13 @@ pub fn doubles(whole: &Fit, predictions: &[Prediction]) -> Vec<String> {
 }
 
 /// Laws outside the catalogue that explain the records better than the set that was found, in the place of one of
-/// its causes and beside the others, or beside all of them, where they leave structure or it is told that there is more;
-/// where nothing was found, than the baseline.
-pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) -> Vec<String> {
+/// its causes and beside the others, or beside all of them, where they leave structure or it is told that there is more,
+/// and noise of the drives makes less of it; where nothing was found, than the baseline.
+pub(super) fn outsiders(
+    (bench, drives): (&Bench, Option<&Drives>),
+    found: &Found,
+    (timed, beside): (bool, bool),
+) -> Vec<String> {
     let best = &found.best;
     let more = beside || leaves_structure(&bench.train, best);
     let in_places = (0..best.effects.len()).map(Some);
@@ -40,12 +45,17 @@ pub fn outsiders(bench: &Bench, found: &Found, (timed, beside): (bool, bool)) ->
     let usable = usable(bench, timed);
     let said = places
         .into_par_iter()
-        .filter_map(|place| said_of(bench, found, place, &usable));
+        .filter_map(|place| said_of((bench, drives), found, place, &usable));
     said.collect()
 }
 
 /// What is said of the law that is likeliest in the place of one of the causes, or beside all of them.
-fn said_of(bench: &Bench, found: &Found, place: Option<usize>, usable: &[Law]) -> Option<String> {
+fn said_of(
+    (bench, drives): (&Bench, Option<&Drives>),
+    found: &Found,
+    place: Option<usize>,
+    usable: &[Law],
+) -> Option<String> {
     let best = &found.best;
     let named = place.map(|k| best.effects[k].effect.name());
     let asked = |one: &Law| match named {
@@ -65,6 +75,10 @@ fn said_of(bench: &Bench, found: &Found, place: Option<usize>, usable: &[Law]) -
         alarm(&bench.train)
     };
     let Likelier { law, fit, .. } = likeliest(bench, found, those(usable, asked), others, margin)?;
+    let of_noise = |drives: &Drives| place.is_none() && drives.make_as_much((best, &fit));
+    if drives.is_some_and(of_noise) {
+        return None;
+    }
     let values = &fit.effect(law.name())?.values;
     let values = law.parameters().iter().zip(values);
     let said = values

@@ -1,12 +1,12 @@
 //! Names that are taken back before anything is said of them.
 
+use super::drawn_drives::Drives;
 use super::noise_alone::beyond_noise;
 use super::outsiders::stood_for;
 use super::prepare::Bench;
 use super::search::Found;
 use super::structure::structure;
 use super::trials::alarm;
-use crate::record::Record;
 
 /// Share of the misfit beyond the noise that a named set must at least take away: one that takes
 /// less is the least bad of wrong explanations.
@@ -45,11 +45,11 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    pub(super) fn of(records: &[Record], bench: &Bench, found: Found, timed: bool) -> Kept {
+    pub(super) fn of(drives: Option<&Drives>, bench: &Bench, found: Found, timed: bool) -> Kept {
         let named = found.best.effects.len();
         let kept = sober(bench, found, timed);
         let mut by_noise: Vec<&str> = kept.best.effects.iter().map(|a| a.effect.name()).collect();
-        let found = beyond_noise(records, bench, kept);
+        let found = beyond_noise(drives, bench, kept);
         by_noise.retain(|name| found.best.effect(name).is_none());
         Kept {
             taken_back: found.best.effects.len() < named,

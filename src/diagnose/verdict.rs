@@ -1,6 +1,7 @@
 //! From fits and structure to a verdict.
 
 use super::findings::Verdict;
+use super::noise_alone::OfNoise;
 use super::structure::Structure;
 
 /// Standard deviations of the bins' means beyond which structure is there: with tens of bins the
@@ -30,23 +31,26 @@ const UNSURE: f64 = 0.1;
 /// over the noise's variance, where the noise is known on its own; `unlisted` is the probability of
 /// something that is not in the catalogue, `toned` is true where a tone is left that cycles do not repeat, and `outside` where a
 /// law outside the catalogue is likelier than no cause; `read` is true where the noise was taken for what the channels
-/// resolve.
+/// resolve, and noise of the drives alone leaves as much as `of_noise` says.
 pub fn verdict(
     named: Option<bool>,
     before: &Structure,
     after: &Structure,
-    (most, read): (Option<f64>, bool),
+    (most, read, of_noise): (Option<f64>, bool, OfNoise),
     chi: f64,
     (unlisted, toned, outside): (f64, bool, bool),
 ) -> Verdict {
     // Beneath what a channel resolves nobody asks what is left.
     let shows = !read || chi > 1.0;
     // What differs between cycles was taken for noise, a tone with it.
-    let left = toned || shows && after.significance > STRUCTURED && after.share > NEGLIGIBLE;
+    let structured = after.significance > STRUCTURED && after.share > NEGLIGIBLE;
+    let structured = structured && !of_noise.leaves_as_structured(after.share);
+    let left = toned || shows && structured;
     // Where cycles repeat, the noise is known on its own and the sum of squares tells too, unless what
     // is left is as random as noise: noise that grows with the load is. A few large errors in every bin
     // hide that the bins differ.
     let over = most.is_some_and(|most| chi > most) && (after.is_seen() || chi > THRICE);
+    let over = over && !of_noise.leaves_as_much(chi);
     match (named, left || over) {
         // Noise that is told by its fast part alone may still be far less than what is left.
         (None, false) if chi <= THRICE && !outside => Verdict::Clean,
@@ -79,7 +83,14 @@ mod tests {
         let random = random();
         let said = |most, chi| {
             let others = (0.0, false, false);
-            verdict(None, &random, &random, (most, false), chi, others)
+            verdict(
+                None,
+                &random,
+                &random,
+                (most, false, OfNoise::default()),
+                chi,
+                others,
+            )
         };
         assert_eq!(said(Some(1.4), 15.0), Verdict::Unexplained);
         // Noise that grows with the load is known too small.
@@ -95,7 +106,14 @@ mod tests {
         let random = random();
         let said = |outside| {
             let others = (0.0, false, outside);
-            verdict(None, &random, &random, (None, false), 1.0, others)
+            verdict(
+                None,
+                &random,
+                &random,
+                (None, false, OfNoise::default()),
+                1.0,
+                others,
+            )
         };
         assert_eq!(said(false), Verdict::Clean);
         assert_eq!(said(true), Verdict::Unexplained);
@@ -114,10 +132,43 @@ mod tests {
         };
         let said = |read, chi| {
             let others = (0.0, false, false);
-            verdict(None, &pattern, &pattern, (None, read), chi, others)
+            verdict(
+                None,
+                &pattern,
+                &pattern,
+                (None, read, OfNoise::default()),
+                chi,
+                others,
+            )
         };
         assert_eq!(said(true, 0.01), Verdict::Clean);
         assert_eq!(said(true, 1.5), Verdict::Unexplained);
         assert_eq!(said(false, 0.9), Verdict::Unexplained);
+    }
+
+    /// Structure of a twentieth of the noise, and a quarter more left than that.
+    #[test]
+    fn what_noise_of_the_drives_leaves_by_itself_is_clean() {
+        let pattern = Structure {
+            share: 0.05,
+            significance: 8.0,
+            ..random()
+        };
+        let said = |share, beyond| {
+            let of_noise = OfNoise { share, beyond };
+            let others = (0.0, false, false);
+            verdict(
+                None,
+                &pattern,
+                &pattern,
+                (Some(1.2), false, of_noise),
+                1.25,
+                others,
+            )
+        };
+        assert_eq!(said(0.0, 0.0), Verdict::Unexplained);
+        assert_eq!(said(0.03, 0.2), Verdict::Clean);
+        assert_eq!(said(0.02, 0.2), Verdict::Unexplained);
+        assert_eq!(said(0.03, 0.1), Verdict::Unexplained);
     }
 }

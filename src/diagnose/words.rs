@@ -210,6 +210,12 @@ pub fn of_drive_noise(names: &[&str]) -> Option<String> {
     })
 }
 
+/// What is said where more than the judged channel's noise is left, and noise of the drive alone leaves as much.
+pub fn left_by_drive_noise() -> String {
+    "What is left stands out no more than what noise of the driving channel alone leaves of such records."
+        .to_string()
+}
+
 /// What is said of causes that only the form shows which is not this one; nothing of none.
 pub fn of_other_form(names: &[String], form: Form) -> Option<String> {
     let in_words: Vec<String> = names.iter().map(|name| in_words(name)).collect();
