@@ -153,11 +153,42 @@ fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::diagnose::gridded::tests::slid;
-    use crate::diagnose::noise_alone::tests::falling;
     use crate::identify::baseline;
+    use crate::record::noise::tests::drawn;
+
+    /// Cycles of 79 samples that fall, slow noise in the displacement that drives and noise as loud in the force, which a
+    /// cell reads so many samples late.
+    pub(in crate::diagnose) fn falling(seed: u64, late: usize) -> Record {
+        let mut random = drawn(seed);
+        let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let limits: Vec<f64> = (1..=40).map(|j| 0.03 * f64::from(j)).collect();
+        let swings = |i: usize| {
+            let t = i as f64;
+            (0.3 + 0.7 * (-t / 900.0).exp()) * (std::f64::consts::TAU * t / 79.0).sin()
+        };
+        let displacement: Vec<f64> = (0..2000).map(swings).collect();
+        let force = slid(&limits, &displacement);
+        let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        let mut slow = 0.0;
+        let mut read = |x: &f64| {
+            slow = 0.66 * slow + 0.75 * white();
+            x + 0.015 * slow
+        };
+        let displacement = displacement.iter().map(&mut read).collect();
+        let at = |i: usize| force[i.saturating_sub(late)];
+        Record {
+            name: "falling".to_string(),
+            force: (0..2000)
+                .map(|i| at(i) + 0.009 * largest * white())
+                .collect(),
+            displacement,
+            time: Some((0..2000).map(|i| 4e-4 * i as f64).collect()),
+            ..Record::default()
+        }
+    }
 
     /// Noise of a channel is not felt, be a drive that is calmed without it.
     #[test]
@@ -181,7 +212,7 @@ mod tests {
     /// A load cell whose steps are as large as its noise: draws show both.
     #[test]
     fn noise_of_a_drive_that_is_read_in_steps_is_drawn() {
-        let mut random = crate::record::noise::tests::drawn(20_261_130);
+        let mut random = drawn(20_261_130);
         let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
         let force: Vec<f64> = (0..3000)
             .map(|i| 100.0 * (0.04 * f64::from(i)).sin())

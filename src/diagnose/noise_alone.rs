@@ -16,6 +16,11 @@ const TIMES: f64 = 2.0;
 /// more of it.
 const LOUDER: f64 = 20.0;
 
+/// Share of what noise of the drives adds that a law has to take: calming them, and the choice of the likeliest of many laws,
+/// which are not drawn, leave that to chance. Of 90 clean records with noise as loud in both channels laws that no draw took
+/// back had 0.01 to 0.04 of it; of 21 effects of 1.3 times that noise none lost its name by it.
+const CHANCE: f64 = 0.05;
+
 /// Times that noise which nothing but the best model tells is told by what that leaves.
 const ROUNDS: usize = 2;
 
@@ -72,6 +77,9 @@ impl Drives<'_> {
     pub(super) fn make_as_much(&self, (without, with): (&Fit, &Fit)) -> bool {
         let takes = without.misfit - with.misfit - alarm(&self.bench.train);
         let adds = self.adds();
+        if takes < CHANCE * adds {
+            return true;
+        }
         // White noise adds what its fastest part tells, slow noise more.
         let kinds: &[(bool, f64)] = if self.may_be_slow() {
             &[(false, TIMES), (true, LOUDER)]
@@ -137,50 +145,20 @@ impl Drives<'_> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
-    use super::super::drive::without_drive_noise;
-    use super::super::prepare::prepare;
+mod tests {
     use super::*;
     use crate::causes::find;
     use crate::diagnose::diagnose;
+    use crate::diagnose::drawn_drives::tests::falling;
+    use crate::diagnose::drive::without_drive_noise;
     use crate::diagnose::findings::Verdict;
     use crate::diagnose::gridded::tests::slid;
+    use crate::diagnose::prepare::prepare;
     use crate::identify::beginning::Beginning;
     use crate::identify::{Form, baseline};
     use crate::joint::effect::Acting;
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
-
-    /// Cycles of 79 samples that fall, slow noise in the displacement that drives and noise as loud in the force, which a
-    /// cell reads so many samples late.
-    pub(in crate::diagnose) fn falling(seed: u64, late: usize) -> Record {
-        let mut random = drawn(seed);
-        let mut white = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
-        let limits: Vec<f64> = (1..=40).map(|j| 0.03 * f64::from(j)).collect();
-        let swings = |i: usize| {
-            let t = i as f64;
-            (0.3 + 0.7 * (-t / 900.0).exp()) * (std::f64::consts::TAU * t / 79.0).sin()
-        };
-        let displacement: Vec<f64> = (0..2000).map(swings).collect();
-        let force = slid(&limits, &displacement);
-        let largest = force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-        let mut slow = 0.0;
-        let mut read = |x: &f64| {
-            slow = 0.66 * slow + 0.75 * white();
-            x + 0.015 * slow
-        };
-        let displacement = displacement.iter().map(&mut read).collect();
-        let at = |i: usize| force[i.saturating_sub(late)];
-        Record {
-            name: "falling".to_string(),
-            force: (0..2000)
-                .map(|i| at(i) + 0.009 * largest * white())
-                .collect(),
-            displacement,
-            time: Some((0..2000).map(|i| 4e-4 * i as f64).collect()),
-            ..Record::default()
-        }
-    }
 
     /// Names of causes, and whether one is said to be noise.
     fn named(record: Record) -> (Vec<String>, bool) {
@@ -258,6 +236,24 @@ pub(super) mod tests {
                 "{of_noise:?} {square}"
             );
         }
+    }
+
+    #[test]
+    fn little_of_what_noise_of_the_drive_adds_is_no_cause() {
+        let records = [stepped(1, 0.0)];
+        let calm = without_drive_noise(Form::Play, &records);
+        let bench = prepare(Form::Play, &calm, &[Beginning::default()]);
+        let drives = Drives::of(&records, &bench).unwrap();
+        let plain = baseline(&bench.train);
+        let taking = |share: f64| {
+            let takes = alarm(&bench.train) + share * drives.adds();
+            let with = Fit {
+                misfit: plain.misfit - takes,
+                ..plain.clone()
+            };
+            drives.make_as_much((&plain, &with))
+        };
+        assert!(taking(0.03) && !taking(0.1));
     }
 
     #[test]
