@@ -123,9 +123,11 @@ impl Drives<'_> {
                 ..own.clone()
             };
         }
-        for _ in 0..ROUNDS {
-            let first = refit(&of_noise.train, set, set.effects.clone());
-            of_noise.weigh_what_is_left(&first);
+        if !of_noise.noise_is_repeated() {
+            for _ in 0..ROUNDS {
+                let first = refit(&of_noise.train, set, set.effects.clone());
+                of_noise.weigh_what_is_left(&first);
+            }
         }
         let whole = &of_noise.whole;
         let fit = refit(whole, set, set.effects.clone());
