@@ -472,7 +472,7 @@ fn situations(answers: &[Output]) -> impl Iterator<Item = Situation> {
 
 fn responses(cause: &dyn Cause, values: &[f64], memory: &[f64], now: &Situation) -> [Response; 4] {
     [
-        cause.beside_slip(values, now.slip, memory),
+        cause.beside_slip(values, (now.slip, now.slip_rate), memory),
         cause.beside_joint(values, now.displacement, now.velocity),
         cause.spring(values, now.force),
         cause.in_series(values, now.force, now.step, memory),

@@ -76,6 +76,65 @@ fn what_bears_behind_a_soft_spring_is_told_from_the_spring() {
     }
 }
 
+/// Force of a film \[N\] at a rate of the slip \[m/s\].
+type Film<'a> = &'a dyn Fn(f64) -> f64;
+
+/// Sixty sliders and a film between their surfaces, whose force follows the rate of the slip so many times, behind the
+/// spring, in two tests of steps of a sine of the slip at another rate each.
+fn with_film(law: Film, by_force: bool) -> [Record; 2] {
+    [1.0, 6.0].map(|cycles: f64| {
+        let step = 1.0 / (200.0 * cycles);
+        let level = |i: u32| [0.3, 0.5, 0.8, 1.0, 0.6][i as usize / 800];
+        let rate = |i: u32| 2e-5 * level(i) * TAU * cycles * (TAU * f64::from(i) / 200.0).cos();
+        let bare = record(&|_| 0.0, by_force);
+        let mut record = bare;
+        for i in 0..4000 {
+            let film = law(rate(i));
+            record.force[i as usize] += film;
+            record.displacement[i as usize] += film / SERIES;
+        }
+        record.name = format!("at {cycles} Hz");
+        record.time = Some((0..4000).map(|i| step * f64::from(i)).collect());
+        record
+    })
+}
+
+/// Taken for that of the whole displacement its rate had a delay of the load cell beside it, or friction that follows the
+/// rate.
+#[test]
+fn a_film_behind_a_soft_spring_is_named_alone() {
+    let oil = |rate: f64| 8e4 * rate;
+    let drag = |rate: f64| 1.2e8 * rate * rate.abs();
+    let laws: [(Film, &str, f64); 2] = [
+        (&oil, "viscous_damping", 8e4),
+        (&drag, "quadratic_damping", 1.2e8),
+    ];
+    for (law, name, size) in laws {
+        for by_force in [false, true] {
+            let place = format!("seed {SEED}, {name}, by force {by_force}");
+            let findings = diagnose(&with_film(law, by_force), |_| ()).unwrap();
+            let names: Vec<&str> = findings.causes.iter().map(|c| c.name.as_str()).collect();
+            assert_eq!(names, [name], "{place}");
+            assert_eq!(findings.verdict, Verdict::Explained, "{place}");
+            let told = &findings.causes[0].parameters;
+            let told = told
+                .iter()
+                .find(|p| p.name == "contact_coefficient")
+                .unwrap();
+            println!(
+                "{place}: {:.4} {:?}",
+                told.value / size - 1.0,
+                told.interval
+            );
+            assert!(
+                (told.value / size - 1.0).abs() < 0.1,
+                "{place}: {}",
+                told.value
+            );
+        }
+    }
+}
+
 /// Samples of a cycle, and the steps in which the sliders are followed from one to the next.
 const SAMPLES: u32 = 60;
 const FINE: u32 = 32;

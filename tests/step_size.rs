@@ -123,8 +123,10 @@ fn a_limit_that_follows_the_load_is_taken_where_the_step_ends() {
 #[test]
 fn errors_of_causes_that_follow_the_joint_fall_with_the_step() {
     let cases = [
-        acting("viscous_damping", &[2e4]),
-        acting("quadratic_damping", &[1e8]),
+        acting("viscous_damping", &[2e4, 0.0]),
+        acting("viscous_damping", &[0.0, 2e4]),
+        acting("quadratic_damping", &[1e8, 0.0]),
+        acting("quadratic_damping", &[0.0, 1e8]),
         acting("normal_load_variation", &[1e-3, 0.0, 0.0, 0.0, 0.0, 0.0]),
         acting("preload_loss", &[0.3, 5e-3, 0.0, 0.0]),
         acting("running_in", &[0.3, 1e-3, 0.0, 0.0, 0.0]),

@@ -9,7 +9,7 @@ mod histories;
 
 use families::every_family;
 use histories::Random;
-use iwan::causes::{CATALOGUE, Kind, Scale};
+use iwan::causes::{CATALOGUE, Cause, Kind, Scale};
 use iwan::joint::{Acting, Density, Drive, FourParameter, Joint, Output, Simulation, VirginCurve};
 
 /// Width of the differences, in units of the largest input: their error is then of the order of
@@ -127,8 +127,8 @@ fn bolt(effects: Vec<Acting>) -> Joint {
     Joint::new(Density::FourParameter(density), 4e7, effects).unwrap()
 }
 
-/// Every joint cause at the largest of its starting values, on a record of this size.
-fn effects() -> Vec<Acting> {
+/// Every joint cause at the largest of its starting values, on a record of this size, at each of the places it may act at.
+fn effects() -> Vec<Vec<Acting>> {
     let scale = Scale {
         force: 600.0,
         displacement: 8e-5,
@@ -148,11 +148,28 @@ fn effects() -> Vec<Acting> {
         mains: vec![],
     };
     let joint_causes = CATALOGUE.iter().filter(|cause| cause.kind() == Kind::Joint);
-    joint_causes
-        .map(|cause| Acting {
-            effect: cause.effect(),
-            values: cause.starts(&scale).pop().unwrap(),
-        })
+    let forms = |cause: &&dyn Cause| {
+        let effect = cause.effect();
+        let mut forms: Vec<Acting> = Vec::new();
+        for values in cause.starts(&scale).into_iter().rev() {
+            let places = effect.places(&values);
+            if !forms
+                .iter()
+                .any(|form| effect.places(&form.values) == places)
+            {
+                forms.push(Acting { effect, values });
+            }
+        }
+        forms
+    };
+    joint_causes.map(forms).collect()
+}
+
+/// Every joint cause at the last of its starting values.
+fn together() -> Vec<Acting> {
+    effects()
+        .into_iter()
+        .map(|mut forms| forms.swap_remove(0))
         .collect()
 }
 
@@ -162,9 +179,10 @@ fn of_every_cause_and_of_all_together() {
     assert!(all.len() >= 15);
     let mut joints: Vec<_> = all
         .iter()
+        .flatten()
         .map(|acting| (acting.effect.name(), bolt(vec![acting.clone()])))
         .collect();
-    joints.push(("all together", bolt(all)));
+    joints.push(("all together", bolt(together())));
     for (name, joint) in joints {
         check(name, &joint, Drive::Force, &history(3, 60, 500.0));
         check(name, &joint, Drive::Displacement, &history(4, 60, 8e-5));
@@ -216,7 +234,7 @@ fn on_both_sides_of_a_reversal() {
 
 #[test]
 fn of_the_virgin_joint_before_it_moves() {
-    for effects in [vec![], effects()] {
+    for effects in [vec![], together()] {
         let joint = bolt(effects);
         for drive in [Drive::Force, Drive::Displacement] {
             let simulation = Simulation::new(&joint, drive).unwrap();
@@ -235,7 +253,7 @@ fn of_the_virgin_joint_before_it_moves() {
 /// A step without motion changes neither side nor slope.
 #[test]
 fn rest_keeps_the_direction() {
-    for effects in [vec![], effects().split_off(2)[..1].to_vec()] {
+    for effects in [vec![], together().split_off(2)[..1].to_vec()] {
         let joint = bolt(effects);
         let mut simulation = Simulation::new(&joint, Drive::Force).unwrap();
         for (i, force) in [400.0, 200.0, -300.0].into_iter().enumerate() {

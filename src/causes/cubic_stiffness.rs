@@ -114,7 +114,7 @@ impl Effect for CubicStiffness {
     fn places(&self, values: &[f64]) -> Places {
         spring::places(values[2], values[4])
     }
-    fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
+    fn beside_slip(&self, values: &[f64], (slip, _): (f64, f64), _memory: &[f64]) -> Response {
         levelled_cube(values[4], values[5], slip)
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
@@ -183,7 +183,7 @@ mod tests {
         let at = |u| CubicStiffness.beside_joint(&[0.0, 0.0, 0.5, 0.0, 0.7, 0.0], u, 1.0);
         assert_eq!((at(2.0).value, at(-2.0).value), (4.0, -4.0));
         assert_eq!((at(2.0).slope, at(-2.0).slope), (6.0, 6.0));
-        let at = |u| CubicStiffness.beside_slip(&[0.0, 0.0, 0.7, 0.0, 0.5, 0.0], u, &[]);
+        let at = |u| CubicStiffness.beside_slip(&[0.0, 0.0, 0.7, 0.0, 0.5, 0.0], (u, 0.0), &[]);
         assert_eq!((at(2.0).value, at(-2.0).value), (4.0, -4.0));
         assert_eq!((at(2.0).slope, at(-2.0).slope), (6.0, 6.0));
     }
@@ -192,7 +192,8 @@ mod tests {
     fn the_cube_levels_off_or_grows_on_smoothly() {
         let spring = |l, x| CubicStiffness.spring(&[0.5, l, 0.0, 0.0, 0.0, 0.0], x);
         let across = |l, x| CubicStiffness.beside_joint(&[0.0, 0.0, 0.5, l, 0.0, 0.0], x, 1.0);
-        let contact = |l, x| CubicStiffness.beside_slip(&[0.0, 0.0, 0.0, 0.0, 0.5, l], x, &[]);
+        let contact =
+            |l, x| CubicStiffness.beside_slip(&[0.0, 0.0, 0.0, 0.0, 0.5, l], (x, 0.0), &[]);
         for at in [spring, across, contact] {
             assert_eq!((at(0.25, 2.0).value, at(-0.25, 2.0).value), (2.0, 8.0));
             for (levelling, x) in [(0.25, 2.0), (-0.25, 2.0), (0.7, -0.3), (-0.7, -0.3)] {

@@ -165,7 +165,7 @@ impl Effect for JointOpening {
     fn places(&self, values: &[f64]) -> Places {
         spring::places(values[3], values[5])
     }
-    fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
+    fn beside_slip(&self, values: &[f64], (slip, _): (f64, f64), _memory: &[f64]) -> Response {
         bearing(values[5], (values[6], values[8]), slip)
     }
     fn beside_joint(&self, values: &[f64], displacement: f64, _velocity: f64) -> Response {
@@ -246,7 +246,7 @@ mod tests {
 
     fn contact(stiffness: f64, closing: f64, slip: f64) -> Response {
         let values = [0.0, 0.0, 0.0, 1.0, 0.0, stiffness, closing, 0.0, 0.0];
-        JointOpening.beside_slip(&values, slip, &[])
+        JointOpening.beside_slip(&values, (slip, 0.0), &[])
     }
 
     #[test]
@@ -318,7 +318,7 @@ mod tests {
             let values = [0.0, 0.0, 0.0, 3.0 * side, 0.0, 3.0 * side, 0.0, 0.5, 0.5];
             let laws: [&dyn Fn(f64) -> Response; 2] =
                 [&|u| JointOpening.beside_joint(&values, u, 1.0), &|u| {
-                    JointOpening.beside_slip(&values, u, &[])
+                    JointOpening.beside_slip(&values, (u, 0.0), &[])
                 }];
             for at in laws {
                 for u in [2.0, 0.0, -0.4] {

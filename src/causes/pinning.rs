@@ -89,7 +89,7 @@ impl Effect for Pinning {
     fn parameters(&self) -> &'static [Parameter] {
         &PARAMETERS
     }
-    fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
+    fn beside_slip(&self, values: &[f64], (slip, _): (f64, f64), _memory: &[f64]) -> Response {
         let [stiffness, positive, negative] = [values[0], values[1], values[2]];
         let [rounding, ratio] = [values[3], values[4]];
         let (ahead, ahead_slope) = contact(slip - positive, rounding);

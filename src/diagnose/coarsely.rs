@@ -185,16 +185,18 @@ mod tests {
     use crate::record::Record;
     use crate::record::noise::tests::drawn;
 
-    /// A record of `samples` a quarter of whose stiffness creeps, in white noise.
+    /// A record of `samples` a quarter of whose stiffness creeps, of a joint that slips as well, in white noise: where
+    /// nothing slips a film between its surfaces answers alike.
     fn creeping(samples: u32) -> Bench {
         let mut noise = drawn(20261128);
         let time: Vec<f64> = (0..samples).map(|i| 0.01 * f64::from(i)).collect();
         let level = |t: &f64| if *t < 80.0 { 40.0 } else { 60.0 };
         let force: Vec<f64> = time.iter().map(|t| level(t) * (0.5 * t).sin()).collect();
-        let mut crept = 0.0;
+        let (mut crept, mut slipped) = (0.0, 0.0_f64);
         let mut lagged = |f: &f64| {
             crept += (0.25 * f - crept) * 0.01 / 0.6;
-            1e-8 * (f + crept)
+            slipped = slipped.clamp(f - 20.0, f + 20.0);
+            1e-8 * (f + 0.5 * slipped + crept)
         };
         let record = Record {
             name: "creeping".to_string(),

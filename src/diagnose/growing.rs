@@ -317,7 +317,7 @@ mod tests {
             values: values.to_vec(),
         };
         let two = [
-            acting("viscous_damping", &[1e7]),
+            acting("viscous_damping", &[1e7, 0.0]),
             acting(
                 "displacement_drift",
                 &[1e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

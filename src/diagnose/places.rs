@@ -287,7 +287,7 @@ mod tests {
             };
             (cause, own)
         };
-        let (_, own) = with("viscous_damping", &[1e6]);
+        let (_, own) = with("viscous_damping", &[1e6, 0.0]);
         let best = refit(&bench.train, &plain, vec![own]);
         let behind = |(cause, own): (&'static dyn Cause, Acting), by: f64| {
             let fit = Fit {

@@ -365,7 +365,7 @@ mod tests {
         assert!(!score("static_friction_drop", &[0.1, 0.0, 2.0], 1.0));
         // All contacts together let go by degrees.
         assert!(!score("static_friction_drop", &[0.1, 1e-6, 2.0], 0.0));
-        assert!(!score("viscous_damping", &[1.0], 0.0));
+        assert!(!score("viscous_damping", &[1.0, 0.0], 0.0));
         // A mass changes the turning points in jumps, and foretells what it takes away.
         assert!(!score("fixture_inertia", &[1.0], 0.0));
     }
@@ -381,7 +381,7 @@ mod tests {
             coefficients: Vec::new(),
             offsets: Vec::new(),
             effects: [
-                ("viscous_damping", vec![1.0]),
+                ("viscous_damping", vec![1.0, 0.0]),
                 ("velocity_weakening", vec![0.1, 1e-3, memory, 1.0]),
             ]
             .map(|(name, values)| Acting {

@@ -28,6 +28,10 @@ impl Rows {
             self.remembered.add(march, row);
             self.outputs.clear();
             self.outputs.extend_from_slice(row);
+            for (before, share) in self.before.iter().zip(step.lagging) {
+                let both = self.outputs.iter_mut().zip(before);
+                both.for_each(|(output, earlier)| *output += share * earlier);
+            }
         }
         row.iter_mut().for_each(|value| *value *= step.share);
         if march.carries() {
@@ -101,7 +105,7 @@ pub(super) mod tests {
     use crate::joint::parameters::Parameter;
     use crate::record::Record;
 
-    /// A dashpot, a spring and a cubic one beside the joint, or a spring in its load path.
+    /// A dashpot, a spring and a cubic one beside the joint, a dashpot beside its slip, or a spring in its load path.
     pub(in crate::identify) struct Beside(pub Place);
 
     impl Effect for Beside {
@@ -122,6 +126,13 @@ pub(super) mod tests {
                 damping: values[0],
             }
         }
+        fn beside_slip(&self, values: &[f64], (_, rate): (f64, f64), _memory: &[f64]) -> Response {
+            Response {
+                value: values[0] * rate,
+                slope: 0.0,
+                damping: values[0],
+            }
+        }
         fn spring(&self, values: &[f64], force: f64) -> Response {
             Response {
                 value: values[0] * force,
@@ -138,14 +149,17 @@ pub(super) mod tests {
     fn rows_of_a_joint_with_something_beside_it_are_derivatives_of_the_pass() {
         static BESIDE: Beside = Beside(Place::BesideJoint);
         static IN_PATH: Beside = Beside(Place::Spring);
-        rows_are_derivatives(Form::Play, (&BESIDE, &[5e6, 0.0, 0.0]));
-        rows_are_derivatives(Form::Play, (&BESIDE, &[0.0, 0.0, -2e18]));
-        rows_are_derivatives(Form::Play, (&Mass, &[4e5]));
-        rows_are_derivatives(Form::Stop, (&IN_PATH, &[4e-9]));
-        rows_are_derivatives(Form::Stop, (&IN_PATH, &[-5e-10]));
+        static BESIDE_SLIP: Beside = Beside(Place::BesideSlip);
+        rows_are_derivatives(Form::Play, &[(&BESIDE, &[5e6, 0.0, 0.0])]);
+        rows_are_derivatives(Form::Play, &[(&BESIDE, &[0.0, 0.0, -2e18])]);
+        rows_are_derivatives(Form::Play, &[(&Mass, &[4e5])]);
+        rows_are_derivatives(Form::Stop, &[(&IN_PATH, &[4e-9])]);
+        rows_are_derivatives(Form::Stop, &[(&IN_PATH, &[-5e-10])]);
+        rows_are_derivatives(Form::Play, &[(&BESIDE_SLIP, &[5e6]), (&IN_PATH, &[4e-9])]);
+        rows_are_derivatives(Form::Stop, &[(&BESIDE_SLIP, &[5e6]), (&IN_PATH, &[4e-9])]);
     }
 
-    fn rows_are_derivatives(form: Form, (effect, values): (&'static dyn Effect, &[f64])) {
+    fn rows_are_derivatives(form: Form, acting: &[(&'static dyn Effect, &[f64])]) {
         let time: Vec<f64> = (0..1200).map(|i| 0.0025 * f64::from(i)).collect();
         let wave = |largest: f64| -> Vec<f64> {
             let at = |t: &f64| largest * (0.7 + 0.1 * t) * (std::f64::consts::TAU * t).sin();
@@ -166,10 +180,11 @@ pub(super) mod tests {
         };
         let mut coefficients = vec![each; columns];
         coefficients[0] = 40.0 * each;
-        let effects = [Acting {
+        let effect = |&(effect, values): &(&'static dyn Effect, &[f64])| Acting {
             effect,
             values: values.to_vec(),
-        }];
+        };
+        let effects: Vec<Acting> = acting.iter().map(effect).collect();
         let at = problem.predict(&coefficients, &effects);
         for column in [0, 5, 20] {
             let change = 1e-4 * coefficients[column];
@@ -189,7 +204,7 @@ pub(super) mod tests {
                 bare = bare.max((at_once - difference).abs());
                 size = size.max(difference.abs());
             });
-            let what = format!("{form:?} {values:?} {column}: {wrong}, {bare} of {size}");
+            let what = format!("{form:?} {effects:?} {column}: {wrong}, {bare} of {size}");
             assert!(wrong < 0.002 * size, "{what}");
             assert!(bare > 0.05 * size, "{what}");
         }

@@ -17,7 +17,7 @@ use super::parameters::Parameter;
 pub enum Place {
     /// Multiplies the break-free forces of the network.
     SlipLimit,
-    /// A force in parallel with the network, over the slip displacement u.
+    /// A force in parallel with the network, over the slip displacement u and its rate.
     BesideSlip,
     /// A force in parallel with the whole joint, over U and its rate.
     BesideJoint,
@@ -91,7 +91,7 @@ pub struct Response {
     pub value: f64,
     /// d value / d argument (slip, displacement or force), ≥ 0 for a stable effect.
     pub slope: f64,
-    /// d value / d velocity, for places beside the joint only.
+    /// d value / d rate, for places beside the joint and beside the slip only.
     pub damping: f64,
 }
 
@@ -198,8 +198,8 @@ pub trait Effect: Send + Sync {
     fn sticking(&self, _values: &[f64]) -> f64 {
         0.0
     }
-    /// [`Place::BesideSlip`]: force [N] over slip u [m].
-    fn beside_slip(&self, _values: &[f64], _slip: f64, _memory: &[f64]) -> Response {
+    /// [`Place::BesideSlip`]: force [N] over slip u [m] and its rate [m/s].
+    fn beside_slip(&self, _values: &[f64], _slip: (f64, f64), _memory: &[f64]) -> Response {
         Response::default()
     }
     /// [`Place::BesideJoint`]: force [N] over displacement U [m] and velocity [m/s].
@@ -269,10 +269,13 @@ impl Acting {
         self.effect.places(&self.values).into_iter().flatten()
     }
 
-    /// Count of its values that are not neutral.
+    /// Count of its values that are not neutral; of a law with forms elsewhere one more for that beside the slip, for whose
+    /// sake the spring behind it is told apart.
     pub fn free(&self) -> usize {
         let both = self.effect.parameters().iter().zip(&self.values);
-        both.filter(|(p, value)| p.neutral != Some(**value)).count()
+        let values = both.filter(|(p, value)| p.neutral != Some(**value)).count();
+        let splits = self.acts_at(Place::BesideSlip) && self.effect.place() != Place::BesideSlip;
+        values + usize::from(splits)
     }
 
     /// True where it acts at this place.

@@ -30,9 +30,9 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// The extended joint in motion. The unknown of a step is the slip u:
 ///
 /// ```text
-/// F_j = N(u) + Σ p(u)                  network with its slip limits, and what acts beside slip
-/// U   = u + F_j/K_1 + Σ δ(F_j) + Σ s(F_j, step)          spring (Eq. 52) and load path
-/// F   = F_j + Σ f(U, (U − U_old)/step)                   beside the joint
+/// F_j = N(u) + Σ p(u, (u − u_old)/step)  network with its slip limits, and what acts beside slip
+/// U   = u + F_j/K_1 + Σ δ(F_j) + Σ s(F_j, step)            spring (Eq. 52) and load path
+/// F   = F_j + Σ f(U, (U − U_old)/step)                     beside the joint
 /// ```
 /// Both F(u) and U(u) rise, so either drive is one bracketed Newton search; where a law softens the joint so far
 /// that one falls, `search` refuses what has no answer. Slip limits are those
@@ -86,16 +86,35 @@ struct Point {
     displacement: f64,
     /// F \[N\].
     force: f64,
-    /// dF_j/du \[N/m\].
+    /// dF_j/du \[N/m\], dU/du and dF/du \[N/m\] with the rates.
     load_slope: f64,
-    /// dU/du.
     stretch: f64,
-    /// dF/du at fixed rate, and with the rate.
-    elastic: f64,
     stiffness: f64,
+    /// The same at fixed rates.
+    held: Held,
     /// Scales of rounding in F \[N\] and U \[m\].
     force_noise: f64,
     displacement_noise: f64,
+}
+
+/// Slopes over the slip at fixed rates.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    load_slope: f64,
+    stretch: f64,
+    stiffness: f64,
+}
+
+impl Point {
+    /// dF/dU at fixed rates \[N/m\].
+    fn tangent(&self) -> f64 {
+        self.held.stiffness / self.held.stretch
+    }
+
+    /// dU/dF_j at fixed rates \[m/N\].
+    fn compliance(&self) -> f64 {
+        self.held.stretch / self.held.load_slope
+    }
 }
 
 impl Extended {
@@ -134,8 +153,8 @@ impl Extended {
         extended.limit = extended.laws.slip_limit(&extended.now);
         extended.network.begin(extended.limit);
         let start = extended.point(0.0, 0.0, true);
-        extended.tangent = start.elastic / start.stretch;
-        extended.outlook = Outlook::of(start.stretch / start.load_slope);
+        extended.tangent = start.tangent();
+        extended.outlook = Outlook::of(start.compliance());
         extended.slopes.force = start.stiffness;
         extended.slopes.displacement = start.stretch;
         extended.scratch = extended.laws.memory().to_vec();
@@ -174,29 +193,35 @@ impl Extended {
 
     fn point(&self, slip: f64, step: f64, rising: bool) -> Point {
         let network = self.network.trial(slip, rising);
-        let beside = self.laws.beside_slip(slip);
+        let per_rate = if step > 0.0 { 1.0 / step } else { 0.0 };
+        let slip_rate = match step > 0.0 {
+            true => (slip - self.now.slip) / step,
+            false => self.now.slip_rate,
+        };
+        let beside = self.laws.beside_slip((slip, slip_rate));
         let load = network.force + beside.value;
-        let load_slope = network.stiffness + beside.slope;
+        let held_slope = network.stiffness + beside.slope;
+        let load_slope = held_slope + beside.damping * per_rate;
         let path = self.laws.in_load_path(load, step);
         let spring = load * self.flexibility;
         let displacement = slip + spring + path.value;
-        let stretch = 1.0 + (self.flexibility + path.slope) * load_slope;
+        let stretch = |load_slope: f64| 1.0 + (self.flexibility + path.slope) * load_slope;
+        let (stretch, held_stretch) = (stretch(load_slope), stretch(held_slope));
         let velocity = self.velocity(displacement, step);
         let parallel = self.laws.beside_joint(displacement, velocity);
-        let damping = if step > 0.0 {
-            parallel.damping / step
-        } else {
-            0.0
-        };
-        let elastic = load_slope + parallel.slope * stretch;
+        let stiffness = load_slope + parallel.slope * stretch;
         Point {
             load,
             load_slope,
             displacement,
             force: load + parallel.value,
             stretch,
-            elastic,
-            stiffness: elastic + damping * stretch,
+            stiffness: stiffness + parallel.damping * per_rate * stretch,
+            held: Held {
+                load_slope: held_slope,
+                stretch: held_stretch,
+                stiffness: held_slope + parallel.slope * held_stretch,
+            },
             force_noise: network.gross + beside.value.abs() + parallel.value.abs(),
             displacement_noise: slip.abs() + spring.abs() + path.value.abs(),
         }
@@ -231,16 +256,16 @@ impl Extended {
             },
             dissipation: from.dissipation + loss,
         };
-        self.outlook
-            .take(step, input, point.stretch / point.load_slope);
+        self.outlook.take(step, input, point.compliance());
         self.ledger.work(&self.laws, &Leg { from, to: self.now });
-        self.tangent = point.elastic / point.stretch;
+        self.tangent = point.tangent();
         let along = self.along(&point, by_limit);
         let end = End {
             along: &along,
             now: &self.now,
             laws: &self.laws,
             way: point.displacement - from.displacement,
+            slipped: slip - from.slip,
             sliding: self.network.sliding_force(rising),
             flexibility: self.flexibility,
             reach: self.reach,

@@ -1,5 +1,6 @@
 //! Single effects against what can be written down.
 
+use iwan::causes::find;
 use iwan::joint::{Density, Drive, JointError, Sliders};
 
 use super::effects::{Dashpot, Kelvin, Play, SEAT, Sided, Stop, Wear};
@@ -31,6 +32,42 @@ fn a_dashpot_adds_its_rate_and_its_loss() {
     }
     assert!((answers[1].dissipation_rate - 0.5 * 4.0).abs() < 1e-13);
     assert_eq!(answers[3].dissipation_rate, 0.0);
+}
+
+/// Behind K_1 a film between the surfaces answers the rate of the slip alone, in either drive.
+#[test]
+fn a_film_adds_the_rate_of_the_slip_and_its_loss() {
+    let elastic = Density::Sliders(Sliders::new(vec![], vec![], 4.0).unwrap());
+    let film = find("viscous_damping").unwrap().effect();
+    let joint = joint(elastic, 2.0, vec![acting(film, &[0.0, 0.5])]);
+    let time = [0.0, 0.1, 0.3, 0.3, 0.4];
+    let slip = [0.0, 0.4, 0.1, -0.1, -0.1];
+    let rates = [0.0, 4.0, -1.5, -1.5, 0.0];
+    let force: Vec<f64> = (0..5).map(|i| 4.0 * slip[i] + 0.5 * rates[i]).collect();
+    let way: Vec<f64> = (0..5).map(|i| slip[i] + force[i] / 2.0).collect();
+    for (drive, input) in [(Drive::Force, &force), (Drive::Displacement, &way)] {
+        let answers = joint.simulate(drive, &time, input).unwrap();
+        let mut lost = 0.0;
+        for i in 0..5 {
+            let answer = &answers[i];
+            let off = [
+                answer.force - force[i],
+                answer.displacement - way[i],
+                answer.slip_displacement - slip[i],
+            ];
+            assert!(off.iter().all(|d| d.abs() < 1e-14), "{drive:?} {answer:?}");
+            lost += match i {
+                0 => 0.0,
+                _ => 0.5 * rates[i] * (slip[i] - slip[i - 1]),
+            };
+            let kept = 2.0 * slip[i] * slip[i] + 0.25 * force[i] * force[i];
+            let both = [answer.dissipation - lost, answer.stored_energy - kept];
+            assert!(
+                both.iter().all(|d| d.abs() < 1e-14),
+                "{drive:?} {answer:?} {lost} {kept}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -57,7 +57,7 @@ impl Effect for Stop {
             ]
         }
     }
-    fn beside_slip(&self, values: &[f64], slip: f64, _memory: &[f64]) -> Response {
+    fn beside_slip(&self, values: &[f64], (slip, _): (f64, f64), _memory: &[f64]) -> Response {
         let depth = (slip.abs() - values[1]).max(0.0);
         Response {
             value: (values[0] * depth * (1.0 + depth * depth)).copysign(slip),

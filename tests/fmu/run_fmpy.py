@@ -60,10 +60,10 @@ CAUSES = [
             "stiffness_ratio": 1,
         },
     },
-    {"name": "viscous_damping", "parameters": {"coefficient": 500.0}},
+    {"name": "viscous_damping", "parameters": {"coefficient": 500.0, "contact_coefficient": 200.0}},
 ]
 OTHERS = {
-    "quadratic_damping": {"coefficient": 1e4},
+    "quadratic_damping": {"coefficient": 1e4, "contact_coefficient": 2e3},
     "clearance": {"gap": 2e-6, "seating_force": 20.0, "drag": 5.0},
     "slack_growth": {"growth": 1e-9, "threshold": 100.0, "seating_force": 20.0, "drag": 4.0},
     "cubic_stiffness": {

@@ -88,22 +88,36 @@ class Pinning(Scaled):
         }
 
 
-class ViscousDamping(Scaled):
-    """A dashpot across the joint, solved with the equilibrium of each step."""
+class Damper(Scaled):
+    """Oil or air across the joint, or a film between its surfaces, solved in each step."""
+
+    acts = frozenset({"damper", "film"})
+
+    def place(self, scene, rng):
+        """Draw the place, and return the highest rate there."""
+        self.where = str(rng.choice(["joint", "contact"], p=[0.6, 0.4]))
+        self.acts = frozenset({"damper" if self.where == "joint" else "film"})
+        way = scene.largest("displacement" if self.where == "joint" else "slip")
+        return 2 * np.pi * scene.fastest * way
+
+    def film(self, velocity):
+        return self.damper(velocity)
+
+
+class ViscousDamping(Damper):
+    """A dashpot."""
 
     name = "viscous_damping"
-    acts = frozenset({"damper"})
 
     def draw(self, scene, rng):
-        velocity = 2 * np.pi * scene.fastest * scene.largest("displacement")
-        self.most = 0.5 * scene.largest("force") / velocity
+        self.most = 0.5 * scene.largest("force") / self.place(scene, rng)
 
     def damper(self, velocity):
         c = self.strength * self.most
         return c * velocity, c
 
     def describe(self):
-        return {"coefficient_Ns_per_m": self.strength * self.most}
+        return {"coefficient_Ns_per_m": self.strength * self.most, "where": self.where}
 
 
 class Clearance(Scaled):

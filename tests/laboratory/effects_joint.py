@@ -2,25 +2,23 @@
 
 import numpy as np
 
-from .effects_catalogue import Scaled, softplus
+from .effects_catalogue import Damper, Scaled, softplus
 
 
-class QuadraticDamping(Scaled):
-    """Turbulent drag across the joint."""
+class QuadraticDamping(Damper):
+    """Turbulent drag."""
 
     name = "quadratic_damping"
-    acts = frozenset({"damper"})
 
     def draw(self, scene, rng):
-        velocity = 2 * np.pi * scene.fastest * scene.largest("displacement")
-        self.most = 0.5 * scene.largest("force") / velocity**2
+        self.most = 0.5 * scene.largest("force") / self.place(scene, rng) ** 2
 
     def damper(self, velocity):
         c = self.strength * self.most
         return c * velocity * abs(velocity), 2.0 * c * abs(velocity)
 
     def describe(self):
-        return {"coefficient_Ns2_per_m2": self.strength * self.most}
+        return {"coefficient_Ns2_per_m2": self.strength * self.most, "where": self.where}
 
 
 class SlackGrowth(Scaled):

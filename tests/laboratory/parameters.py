@@ -31,6 +31,11 @@ def _where(key, **needed):
     return lambda t: t[key] if all(t[k] in v for k, v in needed.items()) else None
 
 
+def _damper(cause, key):
+    places = {"coefficient": "joint", "contact_coefficient": "contact"}
+    return [Quantity(cause, name, _where(key, where=(place,))) for name, place in places.items()]
+
+
 def _asymmetry(t):
     plus, minus = t["weak_factor"], t["strong_factor"]
     if t["weaker"] == "negative":
@@ -92,8 +97,8 @@ def _late(p):
 
 
 QUANTITIES = [
-    Quantity("viscous_damping", "coefficient", _read("coefficient_Ns_per_m")),
-    Quantity("quadratic_damping", "coefficient", _read("coefficient_Ns2_per_m2")),
+    *_damper("viscous_damping", "coefficient_Ns_per_m"),
+    *_damper("quadratic_damping", "coefficient_Ns2_per_m2"),
     Quantity("pinning", "gap_positive", _gap("positive")[0], False, _gap("positive")[1]),
     Quantity("pinning", "gap_negative", _gap("negative")[0], False, _gap("negative")[1]),
     Quantity("clearance", "gap", _where("gap_m", seating=("tanh",))),
@@ -135,8 +140,8 @@ QUANTITIES = [
 
 # Effects of which a form of the finder's law holds the laboratory's exactly, or some of its forms.
 SAME_FORM = {
-    "viscous_damping": "a dashpot",
-    "quadratic_damping": "a drag",
+    "viscous_damping": "a dashpot across the joint or its contact",
+    "quadratic_damping": "a drag across the joint or its contact",
     "clearance": "seated by a tanh; not by a root",
     "preload_loss": "exponential, hyperbolic and power of energy; exponential of the path",
     "asymmetric_friction": "both: what one side alone loses is a joint of less friction besides",

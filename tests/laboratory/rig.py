@@ -38,7 +38,7 @@ class Effect:
     """A specimen or a sensor that is not the ideal joint; the base class changes nothing.
 
     `acts` names the hooks a subclass overrides, so that the rig asks only for those:
-    limits, contact, series, across, damper, after, read_force, read_displacement.
+    limits, contact, film, series, across, damper, after, read_force, read_displacement.
     """
 
     name = "clean"
@@ -54,6 +54,10 @@ class Effect:
 
     def contact(self, u):
         """Force beside the elements and its slope at slip u."""
+        return 0.0, 0.0
+
+    def film(self, velocity):
+        """Force beside the elements and its slope at this rate of the slip."""
         return 0.0, 0.0
 
     def series(self, force):
@@ -103,7 +107,7 @@ def drive(joint, time, command, by_force, effect=None, rest=None):
     acts = effect.acts
     moving_limits, has_contact = "limits" in acts, "contact" in acts
     has_series, has_damper, has_after = "series" in acts, "damper" in acts, "after" in acts
-    has_across = "across" in acts
+    has_across, has_film = "across" in acts, "film" in acts
 
     base, each, residual = joint.limits, joint.stiffness_each, joint.residual
     soft = 1.0 / joint.series
@@ -143,6 +147,10 @@ def drive(joint, time, command, by_force, effect=None, rest=None):
                 extra, more = effect.contact(u)
                 network += extra
                 slope += more
+            if has_film:
+                extra, more = effect.film((u - start) / dt)
+                network += extra
+                slope += more / dt
             displacement, stretch = u + network * soft, 1.0 + slope * soft
             if has_series:
                 extra, more = effect.series(network)

@@ -124,6 +124,22 @@ class Physics(unittest.TestCase):
         lost = work(trace.force[-3201:], trace.displacement[-3201:])
         self.assertAlmostEqual(lost / (np.pi * 0.05 * 2 * np.pi), 1.0, delta=1e-3)
 
+    def test_film_behind_a_spring_loses_pi_c_omega_slip_squared(self):
+        class Film(rig.Effect):
+            acts = frozenset({"film"})
+
+            def film(self, velocity):
+                return 0.05 * velocity, 0.05
+
+        joint = uniform_joint()
+        joint.limits = joint.limits + 1e3
+        history = cycles([1.0], per_cycle=3200)
+        trace = rig.drive(joint, history.time, history.command, False, Film())
+        lost = work(trace.force[-3201:], trace.displacement[-3201:])
+        slip = np.max(np.abs(trace.slip[-3201:]))
+        self.assertLess(slip, 0.9 * np.max(np.abs(trace.displacement)))
+        self.assertAlmostEqual(lost / (np.pi * 0.05 * 2 * np.pi * slip**2), 1.0, delta=1e-3)
+
     def test_a_force_beyond_full_slip_is_refused(self):
         joint = uniform_joint()
         history = cycles([1.0], per_cycle=100)
@@ -151,7 +167,7 @@ class FollowUp(unittest.TestCase):
     def test_the_same_load_gives_the_same_answer_again(self):
         scene, rng = small_scene(4)
         effect = CATALOGUE["viscous_damping"](scene, rng)
-        effect.strength = 0.05
+        effect.strength = 0.1
         first = Sampled(scene, scene.play(effect), effect)
         still = SimpleNamespace(
             scene=scene, effect=effect, rms=0.0, level=0.0, noise=Noise("white")

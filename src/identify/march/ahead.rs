@@ -9,7 +9,7 @@ use crate::joint::simulation::Drive;
 impl March<'_> {
     /// The outlook of a joint that has not moved.
     pub(super) fn at_rest(&self) -> Outlook {
-        let (_, beside) = self.beside_slip(0.0);
+        let beside = self.beside_slip(0.0, 0.0).held;
         let (_, path) = self.in_path(0.0, 0.0);
         let network = match self.operators.form {
             Form::Play => self.elastic / (1.0 + beside * self.elastic),

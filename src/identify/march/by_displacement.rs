@@ -16,9 +16,9 @@ impl March<'_> {
         let mut round = 0;
         loop {
             let (network, tangent) = self.network(trial);
-            let (beside, beside_slope) = self.beside_slip(trial);
-            let joint_force = network + beside;
-            let joint_slope = tangent + beside_slope;
+            let beside = self.beside_slip(trial, step);
+            let joint_force = network + beside.force;
+            let joint_slope = tangent + beside.slope;
             let (path, path_slope) = self.in_path(joint_force, step);
             let error = trial + path - displacement;
             let slope = 1.0 + path_slope * joint_slope;
@@ -26,17 +26,23 @@ impl March<'_> {
             if !path_acts || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 let across = self.beside_joint(displacement, step);
                 self.tangent = tangent;
-                self.outlook.take(step, displacement, slope / joint_slope);
+                let held = tangent + beside.held;
+                self.outlook
+                    .take(step, displacement, (1.0 + path_slope * held) / held);
+                self.network = network;
                 self.accept(
                     time,
                     step,
                     (trial, joint_force, displacement, across.velocity),
                 );
+                let share = share(slope);
                 return Step {
                     force: joint_force + across.force,
                     displacement,
-                    share: share(slope),
+                    share,
                     input: [-path_slope, 0.0],
+                    // A force before took of the way, and its slip with it.
+                    carried: beside.earlier.map(|c| -c * path_slope * share),
                     ..Step::default()
                 };
             }
@@ -48,9 +54,9 @@ impl March<'_> {
     /// Slip \[m\] after Newton's first step from where the joint was, which asks no operator.
     fn slip_ahead(&self, step: f64, displacement: f64) -> f64 {
         let slip = self.last.slip;
-        let (_, beside_slope) = self.beside_slip(slip);
-        let (path, path_slope) = self.in_path(self.last.force, step);
+        let beside = self.beside_slip(slip, step);
+        let (path, path_slope) = self.in_path(self.network + beside.force, step);
         let error = slip + path - displacement;
-        slip - error / (1.0 + path_slope * (self.tangent + beside_slope))
+        slip - error / (1.0 + path_slope * (self.tangent + beside.slope))
     }
 }

@@ -21,9 +21,9 @@ impl March<'_> {
         let mut round = 0;
         loop {
             let (slip, tangent) = self.network(trial);
-            let (beside, beside_slope) = self.beside_slip(slip);
-            let joint_force = trial + beside;
-            let joint_slope = 1.0 + beside_slope * tangent;
+            let beside = self.beside_slip(slip, step);
+            let joint_force = trial + beside.force;
+            let joint_slope = 1.0 + beside.slope * tangent;
             let (path, path_slope) = self.in_path(joint_force, step);
             let displacement = slip + path;
             let displacement_slope = tangent + path_slope * joint_slope;
@@ -37,21 +37,29 @@ impl March<'_> {
             let precise = precise.max(ROUNDED * hauled.slope * displacement.abs());
             if !parallel || error.abs() <= precise || next == trial || round >= MOST_TRIALS {
                 self.tangent = tangent;
+                let held = 1.0 + beside.held * tangent;
                 self.outlook
-                    .take(step, force, displacement_slope / joint_slope);
+                    .take(step, force, (tangent + path_slope * held) / held);
                 let taken = self.inertia.take(step, displacement);
+                self.network = trial;
                 self.accept(time, step, answer);
+                let [latest, oldest] = [0, 1].map(|k| {
+                    let (across, beside) = (across.earlier[k], beside.earlier[k]);
+                    -(across * displacement_slope + beside * tangent) * share
+                });
+                let in_path = path_slope / (1.0 + path_slope * beside.slope);
                 return Step {
                     force: force - hauled.force,
                     displacement,
                     share,
                     input: match displacement_slope > 0.0 {
-                        true => [1.0, -1.0 - path_slope * beside_slope]
+                        true => [1.0, -1.0 - path_slope * beside.slope]
                             .map(|by| by / displacement_slope),
                         // A joint that no force moves.
                         false => [0.0; 2],
                     },
-                    carried: across.earlier.map(|c| -c * displacement_slope * share),
+                    carried: [latest, oldest],
+                    lagging: beside.earlier.map(|c| c * in_path),
                     hauled: Carried {
                         by_motion: taken.by_motion.map(|c| -c * displacement_slope * share),
                         ..taken
@@ -65,15 +73,16 @@ impl March<'_> {
 
     /// Network force \[N\] after Newton's first step from where the joint was, which asks no operator.
     fn force_ahead(&self, step: f64, force: f64) -> f64 {
-        let (beside, beside_slope) = self.beside_slip(self.last.slip);
-        let network = self.last.force - beside;
-        let joint_slope = 1.0 + beside_slope * self.tangent;
-        let (path, path_slope) = self.in_path(network + beside, step);
+        let beside = self.beside_slip(self.last.slip, step);
+        let network = self.network;
+        let joint_force = network + beside.force;
+        let joint_slope = 1.0 + beside.slope * self.tangent;
+        let (path, path_slope) = self.in_path(joint_force, step);
         let displacement = self.last.slip + path;
         let displacement_slope = self.tangent + path_slope * joint_slope;
         let across = self.beside_joint(displacement, step);
         let hauled = self.inertia.at(step, displacement);
-        let error = self.last.force + across.force + hauled.force - force;
+        let error = joint_force + across.force + hauled.force - force;
         network - error / (joint_slope + (across.slope + hauled.slope) * displacement_slope)
     }
 }

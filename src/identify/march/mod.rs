@@ -7,6 +7,7 @@ mod by_displacement;
 mod by_force;
 mod places;
 
+use places::Earlier;
 pub use places::added;
 
 use super::inertia::{Carried, Inertia};
@@ -26,7 +27,9 @@ pub struct March<'a> {
     effects: &'a [Acting],
     memories: Vec<Vec<f64>>,
     last: Situation,
-    earlier: Option<(f64, f64)>,
+    earlier: Option<Earlier>,
+    /// Force of the network at the end of the last step \[N\].
+    network: f64,
     /// Of the network at the end of the last step, from where the next one's root is looked for.
     tangent: f64,
     outlook: Outlook,
@@ -34,6 +37,8 @@ pub struct March<'a> {
     /// Where force drives: where the displacement does, its acceleration is measured.
     inertia: Inertia,
     has: [bool; 7],
+    /// True where a force beside the slip follows its rate.
+    damps_slip: bool,
     counts_energy: bool,
     /// True where the joint is as a record before left it.
     goes_on: bool,
@@ -50,6 +55,8 @@ pub struct Step {
     pub share: f64,
     /// d network input / d judged, and by the network's output.
     pub(super) input: [f64; 2],
+    /// Of what of those the network's output has as its input sees it, where a dashpot acts on the slip behind a spring.
+    pub(super) lagging: [f64; 2],
     /// d displacement / d its two earlier values, latest first: a force that follows the rate of the
     /// displacement carries a change of the model on to later samples.
     pub carried: [f64; 2],
@@ -73,6 +80,7 @@ pub(super) struct Wear {
 struct Stood {
     bank: Bank,
     last: Situation,
+    network: f64,
     outlook: Outlook,
     limits: (f64, f64),
 }
@@ -127,8 +135,11 @@ impl<'a> March<'a> {
         // Without such effects an operator beyond the input's range is an elastic one: the
         // dictionary has that already.
         let input_channel = operators.form.input_place();
-        // A spring across the joint that softens leaves the network more than the whole force.
-        let across = operators.form == Form::Play && has[index(Place::BesideJoint)];
+        // A spring across the joint that softens leaves the network more than the whole force, and so does a dashpot
+        // that turns late.
+        let damps_slip = effects.iter().any(places::damps_slip);
+        let beside = has[index(Place::BesideJoint)] || damps_slip;
+        let across = operators.form == Form::Play && beside;
         let beyond = has[index(Place::SlipLimit)] || has[index(input_channel)] || across;
         let cells_reached = match beyond {
             true => coefficients.len() - 1,
@@ -165,6 +176,7 @@ impl<'a> March<'a> {
                 .collect(),
             last: Situation::default(),
             earlier: None,
+            network: 0.0,
             tangent: elastic,
             outlook: Outlook::of(elastic),
             limits: (1.0, 1.0),
@@ -173,6 +185,7 @@ impl<'a> March<'a> {
                 Form::Stop => Inertia::default(),
             },
             has,
+            damps_slip,
             // Only slip limits see the energy; without effects it is what the march is asked for.
             counts_energy: effects.is_empty()
                 || effects
@@ -198,13 +211,13 @@ impl<'a> March<'a> {
 
     /// True where a force follows the rate.
     pub(super) fn follows_rates(&self) -> bool {
-        self.has[index(Place::BesideJoint)]
+        self.has[index(Place::BesideJoint)] || self.damps_slip
     }
 
     /// Output of the network per unit of each coefficient, the elastic one first; of a march with all cells.
     pub(super) fn outputs(&self, outputs: &mut [f64]) {
         outputs[0] = match self.operators.form {
-            Form::Play => self.network_force(),
+            Form::Play => self.network,
             Form::Stop => self.last.slip,
         };
         let cells = self.bank.positions().chunks_exact(SHARED);
@@ -244,10 +257,6 @@ impl<'a> March<'a> {
     /// follows it.
     pub fn dissipation(&self) -> f64 {
         self.last.dissipation
-    }
-
-    fn network_force(&self) -> f64 {
-        self.last.force - self.beside_slip(self.last.slip).0
     }
 
     /// Network output for a trial input, the operators' trial positions, and the tangent where the network feeds back.
@@ -311,6 +320,7 @@ impl<'a> March<'a> {
             stood: self.has[index(Place::SlipLimit)].then(|| Stood {
                 bank: self.bank.clone(),
                 last: self.last,
+                network: self.network,
                 outlook: self.outlook,
                 limits: self.limits,
             }),
@@ -320,7 +330,7 @@ impl<'a> March<'a> {
     /// A joint that is worn so far, at rest or, where it `goes_on`, as it stood.
     pub(super) fn worn(mut self, wear: &Wear, goes_on: bool) -> Self {
         if let Some(stood) = wear.stood.as_ref().filter(|_| goes_on) {
-            (self.bank, self.last) = (stood.bank.clone(), stood.last);
+            (self.bank, self.last, self.network) = (stood.bank.clone(), stood.last, stood.network);
             (self.outlook, self.limits) = (stood.outlook, stood.limits);
             self.goes_on = true;
         }
@@ -361,7 +371,11 @@ impl<'a> March<'a> {
         } else {
             (displacement - self.last.displacement) / step
         };
-        self.earlier = (step > 0.0).then_some((self.last.displacement, step));
+        self.earlier = (step > 0.0).then_some(Earlier {
+            displacement: self.last.displacement,
+            slip: self.last.slip,
+            step,
+        });
         self.last = Situation {
             time,
             step,

@@ -87,8 +87,8 @@ impl Laws {
         each.sum()
     }
 
-    /// Force beside the network at slip u, `Σ p(u)`.
-    pub fn beside_slip(&self, slip: f64) -> Response {
+    /// Force beside the network at slip u and its rate, `Σ p(u, u̇)`.
+    pub fn beside_slip(&self, slip: (f64, f64)) -> Response {
         self.sum(Place::BesideSlip, |law, memory| {
             law.beside_slip(slip, memory)
         })
@@ -153,7 +153,7 @@ impl Law {
     pub fn acts_at(&self, place: Place) -> bool {
         self.places.contains(&Some(place))
     }
-    pub fn beside_slip(&self, slip: f64, memory: &[f64]) -> Response {
+    pub fn beside_slip(&self, slip: (f64, f64), memory: &[f64]) -> Response {
         let acting = &self.acting;
         acting.effect.beside_slip(&acting.values, slip, memory)
     }

@@ -9,8 +9,8 @@ use crate::joint::effect::{Place, Situation};
 /// For each effect `work = kept + lost`, where the work of a step is
 ///
 /// ```text
-/// beside slip    ∫ p du                    beside joint   ∫ f(U,0) dU + [f(U,V) − f(U,0)] ΔU
-/// spring         ∫ F dδ                    in series      F_old [s(F_old, step) − s_old] + ∫ F ds
+/// beside slip    ∫ p(u,0) du + [p(u,v) − p(u,0)] Δu    beside joint   ∫ f(U,0) dU + [f(U,V) − f(U,0)] ΔU
+/// spring         ∫ F dδ                                in series      F_old [s(F_old, step) − s_old] + ∫ F ds
 /// ```
 /// and the kept part is the effect's own [`stored_energy`](crate::joint::Effect::stored_energy), or
 /// the integral where the law depends on its argument alone. Losses are added up with their sign,
@@ -133,10 +133,14 @@ pub(super) struct Work {
 fn work_of(place: Place, (law, memory): (&Law, &[f64]), leg: &Leg, series: &mut f64) -> Work {
     let (from, to) = (&leg.from, &leg.to);
     match place {
-        Place::BesideSlip => Work {
-            elastic: integral(from.slip, to.slip, |u| law.beside_slip(u, memory).value),
-            other: 0.0,
-        },
+        Place::BesideSlip => {
+            let still = |slip| law.beside_slip((slip, 0.0), memory).value;
+            let moving = law.beside_slip((to.slip, to.slip_rate), memory).value;
+            Work {
+                elastic: integral(from.slip, to.slip, still),
+                other: (moving - still(to.slip)) * (to.slip - from.slip),
+            }
+        }
         Place::BesideJoint => {
             let still = |displacement| law.beside_joint(displacement, 0.0).value;
             let moving = law.beside_joint(to.displacement, to.velocity).value;

@@ -117,7 +117,7 @@ impl Extended {
         }
         let sizes = [point.force_noise, point.displacement_noise, input.abs()];
         let in_numbers = sizes.iter().all(|size| *size <= LARGEST);
-        if !in_numbers || !(point.elastic / point.stretch).is_finite() {
+        if !in_numbers || !point.tangent().is_finite() {
             return Err(JointError::OutOfReach { time, value: input });
         }
         Ok(found)
@@ -159,7 +159,7 @@ impl Extended {
         let parallel = [Place::BesideSlip, Place::BesideJoint];
         let laws = &self.laws;
         laws.falling(parallel, |law, place, memory| match place {
-            Place::BesideSlip => law.beside_slip(slip, memory).slope,
+            Place::BesideSlip => law.beside_slip((slip, 0.0), memory).slope,
             _ => law.beside_joint(point.displacement, 0.0).slope * point.stretch,
         })
     }

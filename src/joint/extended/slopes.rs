@@ -2,7 +2,7 @@
 
 use super::ahead::Along;
 use super::laws::{Law, Laws};
-use crate::joint::effect::{Place, Situation};
+use crate::joint::effect::{Place, Response, Situation};
 use crate::joint::sensitivity::Sensitivity;
 
 /// Width of the difference by which the energy is differentiated that a law says itself, in units
@@ -16,8 +16,9 @@ pub(super) struct End<'a> {
     pub along: &'a Along,
     pub now: &'a Situation,
     pub laws: &'a Laws,
-    /// Displacement over the step \[m\].
+    /// Displacement over the step, and slip over it \[m\].
     pub way: f64,
+    pub slipped: f64,
     /// Force of the network's sliders that slide \[N\].
     pub sliding: f64,
     /// K_1 as flexibility \[m/N\], and the slip range \[m\].
@@ -33,14 +34,14 @@ impl End<'_> {
         // The network's springs take what its sliders do not, and K_1 its own.
         let mut stored = force - self.sliding + self.flexibility * force * point.load_slope;
         stored += self.along.stored;
+        // What acts beside the slip is no force of the network.
+        let now = self.now;
+        stored -= self.laws.beside_slip((now.slip, now.slip_rate)).value;
         for (law, memory) in self.laws.iter() {
             let (mut elastic, mut other) = (0.0, 0.0);
             for place in law.places() {
                 let (one, rest) = self.work(place, law, memory);
                 (elastic, other) = (elastic + one, other + rest);
-                if place == Place::BesideSlip {
-                    stored -= one; // its force is no force of the network
-                }
             }
             let kept = self.kept(law, memory, scratch).unwrap_or(elastic);
             lost += elastic + other - kept;
@@ -59,17 +60,15 @@ impl End<'_> {
     fn work(&self, place: Place, law: &Law, memory: &[f64]) -> (f64, f64) {
         let (point, now) = (&self.along.point, self.now);
         match place {
-            Place::BesideSlip => (law.beside_slip(now.slip, memory).value, 0.0),
+            Place::BesideSlip => {
+                let still = law.beside_slip((now.slip, 0.0), memory);
+                let moving = law.beside_slip((now.slip, now.slip_rate), memory);
+                (still.value, self.lost(still, moving, self.slipped))
+            }
             Place::BesideJoint => {
                 let still = law.beside_joint(now.displacement, 0.0);
                 let moving = law.beside_joint(now.displacement, now.velocity);
-                let rate = if now.step > 0.0 {
-                    moving.damping / now.step
-                } else {
-                    0.0
-                };
-                let changing = self.way * (moving.slope - still.slope + rate);
-                let other = moving.value - still.value + changing;
+                let other = self.lost(still, moving, self.way);
                 (still.value * point.stretch, other * point.stretch)
             }
             Place::Spring => {
@@ -82,6 +81,17 @@ impl End<'_> {
             }
             Place::SlipLimit | Place::ForceChannel | Place::DisplacementChannel => (0.0, 0.0),
         }
+    }
+
+    /// Slope of `[f(x, v) − f(x, 0)] Δx` over x \[N\].
+    fn lost(&self, still: Response, moving: Response, way: f64) -> f64 {
+        let rate = if self.now.step > 0.0 {
+            moving.damping / self.now.step
+        } else {
+            0.0
+        };
+        let changing = way * (moving.slope - still.slope + rate);
+        moving.value - still.value + changing
     }
 
     /// Slope of the energy that a law says it keeps, by a central difference.
