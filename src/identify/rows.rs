@@ -28,7 +28,8 @@ impl Rows {
             self.remembered.add(march, row);
             self.outputs.clear();
             self.outputs.extend_from_slice(row);
-            for (before, share) in self.before.iter().zip(step.lagging) {
+            let lagging = self.before.iter().zip(step.lagging);
+            for (before, share) in lagging.filter(|(_, share)| *share != 0.0) {
                 let both = self.outputs.iter_mut().zip(before);
                 both.for_each(|(output, earlier)| *output += share * earlier);
             }

@@ -55,7 +55,8 @@ pub struct Step {
     pub share: f64,
     /// d network input / d judged, and by the network's output.
     pub(super) input: [f64; 2],
-    /// Of what of those the network's output has as its input sees it, where a dashpot acts on the slip behind a spring.
+    /// What the input takes the network's output to gain by each of the two earlier values of `carried`: of a dashpot on the
+    /// slip behind a spring.
     pub(super) lagging: [f64; 2],
     /// d displacement / d its two earlier values, latest first: a force that follows the rate of the
     /// displacement carries a change of the model on to later samples.
