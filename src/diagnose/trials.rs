@@ -185,7 +185,7 @@ pub(super) fn of_all_samples(
                 false => fit,
             };
             let trial = Trial::of((problem, scale), *cause, current, fit);
-            match before.filter(|b| b.evidence >= trial.evidence || trial.own().is_none()) {
+            match before.filter(|b| !trial.beats(problem, b)) {
                 Some(before) => Some(before),
                 None => Some(trial),
             }

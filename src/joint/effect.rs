@@ -274,8 +274,12 @@ impl Acting {
     pub fn free(&self) -> usize {
         let both = self.effect.parameters().iter().zip(&self.values);
         let values = both.filter(|(p, value)| p.neutral != Some(**value)).count();
-        let splits = self.acts_at(Place::BesideSlip) && self.effect.place() != Place::BesideSlip;
-        values + usize::from(splits)
+        values + usize::from(self.splits_spring())
+    }
+
+    /// True of a law with forms elsewhere that acts beside the slip.
+    pub fn splits_spring(&self) -> bool {
+        self.acts_at(Place::BesideSlip) && self.effect.place() != Place::BesideSlip
     }
 
     /// True where it acts at this place.
