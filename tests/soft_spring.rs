@@ -15,6 +15,11 @@ const SERIES: f64 = 7e7;
 /// Force of what bears beside the sliders \[N\] at a slip \[m\].
 type Beside<'a> = &'a dyn Fn(f64) -> f64;
 
+/// Level of the steps of a sine, of four cycles each.
+fn level(sample: u32) -> f64 {
+    [0.3, 0.5, 0.8, 1.0, 0.6][sample as usize / 800]
+}
+
 /// Sixty sliders with `beside` across them under steps of a sine of the slip, read behind the spring, in noise of a
 /// share of the channel that answers.
 fn record(beside: Beside, by_force: bool) -> Record {
@@ -29,8 +34,7 @@ fn record(beside: Beside, by_force: bool) -> Record {
     };
     for i in 0..4000 {
         let turn = TAU * f64::from(i) / 200.0;
-        let level = [0.3, 0.5, 0.8, 1.0, 0.6][i as usize / 800];
-        let slip = 2e-5 * level * turn.sin();
+        let slip = 2e-5 * level(i) * turn.sin();
         for (j, d) in reached.iter_mut().enumerate() {
             let most = 4e-7 * f64::from(j as u8 + 1);
             *d = (*d + slip - before).clamp(-most, most);
@@ -84,10 +88,8 @@ type Film<'a> = &'a dyn Fn(f64) -> f64;
 fn with_film(law: Film, by_force: bool) -> [Record; 2] {
     [1.0, 6.0].map(|cycles: f64| {
         let step = 1.0 / (200.0 * cycles);
-        let level = |i: u32| [0.3, 0.5, 0.8, 1.0, 0.6][i as usize / 800];
         let rate = |i: u32| 2e-5 * level(i) * TAU * cycles * (TAU * f64::from(i) / 200.0).cos();
-        let bare = record(&|_| 0.0, by_force);
-        let mut record = bare;
+        let mut record = record(&|_| 0.0, by_force);
         for i in 0..4000 {
             let film = law(rate(i));
             record.force[i as usize] += film;

@@ -194,11 +194,7 @@ impl Extended {
     fn point(&self, slip: f64, step: f64, rising: bool) -> Point {
         let network = self.network.trial(slip, rising);
         let per_rate = if step > 0.0 { 1.0 / step } else { 0.0 };
-        let slip_rate = match step > 0.0 {
-            true => (slip - self.now.slip) / step,
-            false => self.now.slip_rate,
-        };
-        let beside = self.laws.beside_slip((slip, slip_rate));
+        let beside = self.laws.beside_slip((slip, self.slip_rate(slip, step)));
         let load = network.force + beside.value;
         let held_slope = network.stiffness + beside.slope;
         let load_slope = held_slope + beside.damping * per_rate;
@@ -235,6 +231,14 @@ impl Extended {
         }
     }
 
+    fn slip_rate(&self, slip: f64, step: f64) -> f64 {
+        if step > 0.0 {
+            (slip - self.now.slip) / step
+        } else {
+            self.now.slip_rate
+        }
+    }
+
     fn accept(&mut self, time: f64, step: f64, input: f64, found: Found) {
         let from = self.now;
         let Found { slip, rising, .. } = found;
@@ -249,11 +253,7 @@ impl Extended {
             displacement: point.displacement,
             velocity: self.velocity(point.displacement, step),
             slip,
-            slip_rate: if step > 0.0 {
-                (slip - from.slip) / step
-            } else {
-                from.slip_rate
-            },
+            slip_rate: self.slip_rate(slip, step),
             dissipation: from.dissipation + loss,
         };
         self.outlook.take(step, input, point.compliance());

@@ -117,11 +117,7 @@ class Physics(unittest.TestCase):
             def damper(self, velocity):
                 return 0.05 * velocity, 0.05
 
-        joint = uniform_joint()
-        joint.limits = joint.limits + 1e3
-        history = cycles([1.0], per_cycle=3200)
-        trace = rig.drive(joint, history.time, history.command, False, Dashpot())
-        lost = work(trace.force[-3201:], trace.displacement[-3201:])
+        _, lost = last_cycle(Dashpot())
         self.assertAlmostEqual(lost / (np.pi * 0.05 * 2 * np.pi), 1.0, delta=1e-3)
 
     def test_film_behind_a_spring_loses_pi_c_omega_slip_squared(self):
@@ -131,11 +127,7 @@ class Physics(unittest.TestCase):
             def film(self, velocity):
                 return 0.05 * velocity, 0.05
 
-        joint = uniform_joint()
-        joint.limits = joint.limits + 1e3
-        history = cycles([1.0], per_cycle=3200)
-        trace = rig.drive(joint, history.time, history.command, False, Film())
-        lost = work(trace.force[-3201:], trace.displacement[-3201:])
+        trace, lost = last_cycle(Film())
         slip = np.max(np.abs(trace.slip[-3201:]))
         self.assertLess(slip, 0.9 * np.max(np.abs(trace.displacement)))
         self.assertAlmostEqual(lost / (np.pi * 0.05 * 2 * np.pi * slip**2), 1.0, delta=1e-3)
@@ -145,6 +137,15 @@ class Physics(unittest.TestCase):
         history = cycles([1.0], per_cycle=100)
         with self.assertRaises(rig.Infeasible):
             rig.drive(joint, history.time, 1.1 * joint.full_slip * history.command, True)
+
+
+def last_cycle(effect):
+    """An elastic joint with an effect in cycles of 1 m, and what the last one loses [J]."""
+    joint = uniform_joint()
+    joint.limits = joint.limits + 1e3
+    history = cycles([1.0], per_cycle=3200)
+    trace = rig.drive(joint, history.time, history.command, False, effect)
+    return trace, work(trace.force[-3201:], trace.displacement[-3201:])
 
 
 def small_scene(seed, by_force=True):

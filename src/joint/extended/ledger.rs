@@ -136,18 +136,12 @@ fn work_of(place: Place, (law, memory): (&Law, &[f64]), leg: &Leg, series: &mut 
         Place::BesideSlip => {
             let still = |slip| law.beside_slip((slip, 0.0), memory).value;
             let moving = law.beside_slip((to.slip, to.slip_rate), memory).value;
-            Work {
-                elastic: integral(from.slip, to.slip, still),
-                other: (moving - still(to.slip)) * (to.slip - from.slip),
-            }
+            beside((from.slip, to.slip), still, moving)
         }
         Place::BesideJoint => {
             let still = |displacement| law.beside_joint(displacement, 0.0).value;
             let moving = law.beside_joint(to.displacement, to.velocity).value;
-            Work {
-                elastic: integral(from.displacement, to.displacement, still),
-                other: (moving - still(to.displacement)) * (to.displacement - from.displacement),
-            }
+            beside((from.displacement, to.displacement), still, moving)
         }
         Place::Spring => Work {
             elastic: complement(from.force, to.force, |force| law.spring(force).value),
@@ -163,6 +157,15 @@ fn work_of(place: Place, (law, memory): (&Law, &[f64]), leg: &Leg, series: &mut 
             }
         }
         Place::SlipLimit | Place::ForceChannel | Place::DisplacementChannel => Work::default(),
+    }
+}
+
+/// Work on a force beside something that goes a way: along its law at rest, and of what its rate adds at the end.
+fn beside((from, to): (f64, f64), still: impl Fn(f64) -> f64, moving: f64) -> Work {
+    let other = (moving - still(to)) * (to - from);
+    Work {
+        elastic: integral(from, to, still),
+        other,
     }
 }
 
