@@ -6,7 +6,6 @@ use crate::identify::{Form, Problem, baseline};
 use crate::record::Record;
 use crate::record::calm::{calmed, fastest, fastest_part, slow};
 use crate::record::cycles::span;
-use crate::record::evened::median;
 use crate::record::mains::beneath_mains;
 use crate::record::ramps::ramped;
 use crate::record::resolution::{of_step, resolution, step_of_drive};
@@ -23,17 +22,14 @@ const DRAWN: f64 = 1.0;
 /// Correlation of neighbours in the fast part of what the baseline leaves from which the judged channel's noise is slow.
 const SLOW: f64 = 0.3;
 
-/// Share of the median step of a drive from which its noise pushes sliders back that slide.
-const PUSHES: f64 = 0.5;
-
 /// Share of the deviation of a converter's steps that a channel shows sample by sample where it goes on by about one in each.
 const SHOWN: f64 = 0.5;
 
 /// The records without the noise of the driving channel where it counts: sliders that stick answer it with their whole
 /// stiffness; taken for the joint's, that looks like causes. A hum of the mains is no noise: it is a cause's to explain.
 ///
-/// What the baseline leaves tells of that noise, and is taken off by as much as both go together, see [`apart`]. Where
-/// what is left of it would push sliders back between samples, the drive is smoothed as well.
+/// What the baseline leaves tells of that noise, and is taken off by as much as both go together, see [`apart`]; what is
+/// left of it is calmed as far as the drive is smooth, for at a turn it stays in what sliders remember until the next one.
 pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
     let noise: Vec<[f64; 2]> = records.iter().map(|r| drive_noise(form, r)).collect();
     let loud = |counts: f64| -> Vec<Option<f64>> {
@@ -71,11 +67,7 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             *drive = calmed(drive, noise);
             return record;
         };
-        let calm = calmed(&read, left);
-        *drive = match left > PUSHES * usual_step(&calm) {
-            true => calm,
-            false => read,
-        };
+        *drive = calmed(&read, left);
         record.noisy_drive = true;
         record
     })
@@ -145,11 +137,6 @@ pub(super) fn drive_noise(form: Form, record: &Record) -> [f64; 2] {
     let answered = noise * steepest * span(judged) / span(drive);
     let share = answered / fastest(judged).max(resolution(judged));
     [noise, share * share * judged.len() as f64]
-}
-
-/// Median magnitude of a channel's steps.
-fn usual_step(channel: &[f64]) -> f64 {
-    median(channel.windows(2).map(|w| (w[1] - w[0]).abs()).collect())
 }
 
 /// The drive without what a model's residual tells of its noise, and the noise that is left.
@@ -249,6 +236,46 @@ mod tests {
             })
             .collect();
         assert_eq!(apart(&drive, &slow, 1.0), None);
+    }
+
+    /// Cycles whose amplitude jumps from one to the next, so that parabolas do not suit the whole, with noise in both channels of
+    /// which the joint felt none: an error at a turn is remembered until the next one.
+    #[test]
+    fn turns_are_calmed_of_a_drive_that_is_not_smooth_throughout() {
+        let mut random = drawn(20_261_201);
+        let mut noise = || (0..12).map(|_| random()).sum::<f64>() - 6.0;
+        let swings = |i: usize| {
+            let amplitude = [100.0, 40.0, 70.0][i / 140 % 3];
+            amplitude * (std::f64::consts::TAU * i as f64 / 140.0).sin()
+        };
+        let bare: Vec<f64> = (0..4200).map(swings).collect();
+        let read: Vec<f64> = bare.iter().map(|force| force + 0.15 * noise()).collect();
+        let mut reached = [0.0_f64; 20];
+        let mut answer = |force: &f64| {
+            for (j, play) in reached.iter_mut().enumerate() {
+                let limit = 5.0 * (j + 1) as f64;
+                *play = play.clamp(force - limit, force + limit);
+            }
+            1e-9 * (force + reached.iter().sum::<f64>() / 10.0 + 0.25 * noise())
+        };
+        let records = [Record {
+            time: Some((0..4200).map(|i| 0.01 * f64::from(i)).collect()),
+            displacement: bare.iter().map(&mut answer).collect(),
+            force: read.clone(),
+            ..Record::default()
+        }];
+        assert!(smooth(Form::Play, &records, &[Some(0.15)])[0].is_none());
+        let calm = without_drive_noise(Form::Play, &records);
+        let off = |drive: &[f64]| {
+            let turns = (35..4200).step_by(70);
+            let off: Vec<f64> = turns.map(|i| (drive[i] - bare[i]).powi(2)).collect();
+            (off.iter().sum::<f64>() / off.len() as f64).sqrt()
+        };
+        assert!(
+            off(&calm[0].force) < 0.5 * off(&read),
+            "{}",
+            off(&calm[0].force) / off(&read)
+        );
     }
 
     /// A triangle of force read with noise, of which the joint felt nothing, or all.

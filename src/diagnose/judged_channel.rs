@@ -22,6 +22,7 @@ const DEEP_SLIP: f64 = 8.0;
 /// may drive.
 pub fn form(records: &[Record]) -> Form {
     let deep = is_deep(records);
+    let slipped_in_full = full_slip(records).is_some();
     let judges_a_cut_one = |form: Form| {
         let mut channels = records.iter().map(|record| form.channels(record));
         channels.any(|(drive, judged)| is_cut(judged, drive))
@@ -29,12 +30,12 @@ pub fn form(records: &[Record]) -> Form {
     if judges_a_cut_one(Form::Stop) {
         return Form::Stop;
     }
-    if !deep && full_slip(records).is_none() && judges_a_cut_one(Form::Play) {
+    if !deep && !slipped_in_full && judges_a_cut_one(Form::Play) {
         return Form::Play;
     }
     let (force, displacement) = noise(records);
-    let force_drives = || displacement > ALIKE * force && full_slip(records).is_none();
-    if deep && !force_drives() {
+    let force_drives = displacement > ALIKE * force;
+    if slipped_in_full || deep && !force_drives {
         return Form::Stop;
     }
     let alike = (force / displacement).max(displacement / force) < ALIKE;
@@ -142,6 +143,7 @@ pub fn compliance_ratio(record: &Record) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::gridded::tests::slid;
     use crate::record::noise::tests::white;
     use std::f64::consts::TAU;
 
@@ -210,6 +212,30 @@ mod tests {
         };
         assert_eq!(drifted(1), Some(Form::Play));
         assert_eq!(drifted(2), None);
+    }
+
+    /// Be the force the quieter by far, and the slip less deep than would ask for it by its compliance.
+    #[test]
+    fn displacement_drives_where_a_stiff_joint_slipped_in_full() {
+        let limits: Vec<f64> = (1..=40).map(|j| 0.025 * f64::from(j)).collect();
+        let displacement: Vec<f64> = (0..3000)
+            .map(|i| 2.0 * (TAU * f64::from(i) / 100.0).sin())
+            .collect();
+        let noise = white(6000);
+        let (of_force, of_displacement) = noise.split_at(3000);
+        let read = |truth: &[f64], noise: &[f64], loud: f64| -> Vec<f64> {
+            let both = truth.iter().zip(noise);
+            both.map(|(x, e)| x + loud * e).collect()
+        };
+        let records = [Record {
+            force: read(&slid(&limits, &displacement), of_force, 0.05),
+            displacement: read(&displacement, of_displacement, 0.02),
+            ..Record::default()
+        }];
+        assert!(!is_deep(&records) && full_slip(&records).is_some());
+        let (force, displacement) = super::noise(&records);
+        assert!(displacement > ALIKE * force);
+        assert_eq!(form(&records), Form::Stop);
     }
 
     /// A force that stays while the displacement goes on has no displacement of its own, however quiet it is.
