@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 /// ill-conditioned (compliance grows without bound at full slip).
 const DEEP_SLIP: f64 = 8.0;
 
-/// Chooses the form: the channel with less noise is the input, unless the joint slips so deeply that displacement
+/// Chooses the form: the channel with less noise is the input, unless the joint slips in full or so deeply that displacement
 /// has to be. Short of full slip, where every force still has its displacement, force drives if it is plainly the one
 /// with less noise. What the end of a channel's range cuts off drove nothing: such a channel is judged if the other one
 /// may drive.

@@ -120,7 +120,7 @@ pub fn diagnose_with(
     }
     if calm != records {
         findings.notes.push(
-            "The driving channel is noisy, which the joint did not feel: it was read with what the baseline leaves, or smoothed where it is smooth within its noise, or drawn where it goes straight from turn to turn."
+            "The driving channel is noisy, which the joint did not feel: it was read with what the baseline leaves and smoothed where it is smooth within its noise, or drawn where it goes straight from turn to turn."
                 .to_string(),
         );
     }
