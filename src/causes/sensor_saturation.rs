@@ -98,7 +98,7 @@ static PARAMETERS: [Parameter; 8] = [
 const LATER: f64 = 3.0;
 
 /// Share of the gain that a channel at the end of its range loses at least: one whose hyperbolic tangent is at 0.7 loses
-/// half. Judged: a bend by `U|U|`, which this law holds with levels near zero, was taken for an end with a quarter lost.
+/// half. Judged: a bend by `U|U|`, which this law holds with levels near zero, was taken for an end with a quarter lost, once.
 const ENDS: f64 = 0.5;
 
 /// Share of the range within which a channel that ends reads everything right.
@@ -257,8 +257,8 @@ mod tests {
         let none = [0.0, 0.0, 0.0, 2.0];
         let called = |own: [f64; 4]| SensorSaturation.also_called(&[own, none].concat(), &scale);
         assert_eq!(called([0.002, 1.0, 8.0, 2.0]), Some("sensor_nonlinearity"));
-        // Much of the gain is lost in the end, or nothing before the end is near.
         assert_eq!(called([0.02, 1.0, 8.0, 2.0]), Some("sensor_nonlinearity"));
+        // More than half of the gain is lost in the end, or nothing before the end is near.
         assert_eq!(called([0.06, 1.0, 8.0, 2.0]), None);
         assert_eq!(called([0.002, 7.0, 8.0, 2.0]), None);
         let cell = [none, [0.0002, 10.0, 80.0, 2.0]].concat();

@@ -63,12 +63,10 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
             Some(_) => None,
             None => apart(drive, residual, noise),
         };
-        let Some((read, left)) = told else {
-            *drive = calmed(drive, noise);
-            return record;
-        };
+        let is_told = told.is_some();
+        let (read, left) = told.unwrap_or_else(|| (drive.clone(), noise));
         *drive = calmed(&read, left);
-        record.noisy_drive = true;
+        record.noisy_drive |= is_told;
         record
     })
     .collect()
@@ -238,6 +236,19 @@ mod tests {
         assert_eq!(apart(&drive, &slow, 1.0), None);
     }
 
+    /// Displacement of twenty plays whose limits are so far apart \[N\] under a force, with noise as a force.
+    fn played(force: &[f64], apart: f64, mut noise: impl FnMut() -> f64) -> Vec<f64> {
+        let mut reached = [0.0_f64; 20];
+        let one = |force: &f64| {
+            for (j, play) in reached.iter_mut().enumerate() {
+                let limit = apart * (j + 1) as f64;
+                *play = play.clamp(force - limit, force + limit);
+            }
+            1e-9 * (force + reached.iter().sum::<f64>() / 10.0 + noise())
+        };
+        force.iter().map(one).collect()
+    }
+
     /// Cycles whose amplitude jumps from one to the next, so that parabolas do not suit the whole, with noise in both channels of
     /// which the joint felt none: an error at a turn is remembered until the next one.
     #[test]
@@ -250,17 +261,9 @@ mod tests {
         };
         let bare: Vec<f64> = (0..4200).map(swings).collect();
         let read: Vec<f64> = bare.iter().map(|force| force + 0.15 * noise()).collect();
-        let mut reached = [0.0_f64; 20];
-        let mut answer = |force: &f64| {
-            for (j, play) in reached.iter_mut().enumerate() {
-                let limit = 5.0 * (j + 1) as f64;
-                *play = play.clamp(force - limit, force + limit);
-            }
-            1e-9 * (force + reached.iter().sum::<f64>() / 10.0 + 0.25 * noise())
-        };
         let records = [Record {
             time: Some((0..4200).map(|i| 0.01 * f64::from(i)).collect()),
-            displacement: bare.iter().map(&mut answer).collect(),
+            displacement: played(&bare, 5.0, || 0.25 * noise()),
             force: read.clone(),
             ..Record::default()
         }];
@@ -289,17 +292,7 @@ mod tests {
         };
         let bare: Vec<f64> = (0..1500).map(triangle).collect();
         let read: Vec<f64> = bare.iter().map(|force| force + 0.5 * noise()).collect();
-        let mut answer = |force: &[f64]| -> Vec<f64> {
-            let mut reached = [0.0_f64; 20];
-            let one = |force: &f64| {
-                for (j, play) in reached.iter_mut().enumerate() {
-                    let limit = 6.0 * (j + 1) as f64;
-                    *play = play.clamp(force - limit, force + limit);
-                }
-                1e-9 * (force + reached.iter().sum::<f64>() / 10.0 + 0.1 * noise())
-            };
-            force.iter().map(one).collect()
-        };
+        let mut answer = |force: &[f64]| played(force, 6.0, || 0.1 * noise());
         for (felt, displacement) in [(false, answer(&bare)), (true, answer(&read))] {
             let record = Record {
                 time: Some((0..1500).map(|i| 0.01 * f64::from(i)).collect()),

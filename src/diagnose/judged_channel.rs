@@ -22,7 +22,6 @@ const DEEP_SLIP: f64 = 8.0;
 /// may drive.
 pub fn form(records: &[Record]) -> Form {
     let deep = is_deep(records);
-    let slipped_in_full = full_slip(records).is_some();
     let judges_a_cut_one = |form: Form| {
         let mut channels = records.iter().map(|record| form.channels(record));
         channels.any(|(drive, judged)| is_cut(judged, drive))
@@ -30,6 +29,7 @@ pub fn form(records: &[Record]) -> Form {
     if judges_a_cut_one(Form::Stop) {
         return Form::Stop;
     }
+    let slipped_in_full = full_slip(records).is_some();
     if !deep && !slipped_in_full && judges_a_cut_one(Form::Play) {
         return Form::Play;
     }
