@@ -2,6 +2,7 @@
 
 use iwan::identify::{Form, Problem, baseline};
 use iwan::record::Record;
+use iwan::record::colour::Colour;
 use iwan::record::outliers::{Neighbours, outliers, scattered, struck_out};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -175,7 +176,7 @@ fn a_struck_sample_leaves_its_neighbours_alone() {
     let misfit = |written: f64| {
         let mut problem = Problem::new(Form::Play, std::slice::from_ref(&record));
         let prepared = &mut problem.records[0];
-        prepared.autoregression = 0.8;
+        prepared.colour = Colour::first_order(0.8);
         prepared.weight[300] = 0.0;
         prepared.displacement[300] += written;
         baseline(&problem).misfit

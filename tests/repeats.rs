@@ -1,5 +1,6 @@
 //! Noise from repeated cycles: of the right size whatever its colour, and none of the response in it.
 
+use iwan::record::colour::Colour;
 use iwan::record::repeats::{from_repeats, from_steady_changes};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -40,7 +41,7 @@ fn the_noise_of_many_records_is_right_in_the_mean_whatever_its_colour() {
                 .collect();
             let told = from_repeats(&drive, &response).expect("cycles repeat");
             variance += told.deviation.powi(2) / f64::from(draws);
-            found += told.autoregression / f64::from(draws);
+            found += told.colour.neighbours() / f64::from(draws);
         }
         // A draw's variance scatters by a third at a correlation of 0.9: the mean of forty by 5 %.
         assert!((variance - 1.0).abs() < 0.1, "{correlation}: {variance}");
@@ -64,7 +65,7 @@ fn reading_between_samples_makes_noise_no_slower_and_no_less() {
             let response: Vec<f64> = both.map(|(d, n)| 50.0 * d + n).collect();
             let told = from_repeats(&drive, &response).expect("cycles repeat");
             variance += told.deviation.powi(2) / f64::from(draws);
-            found += told.autoregression / f64::from(draws);
+            found += told.colour.neighbours() / f64::from(draws);
         }
         assert!((variance - 1.0).abs() < 0.1, "{correlation}: {variance}");
         assert!((found - correlation).abs() < 0.03, "{correlation}: {found}");
@@ -94,7 +95,7 @@ fn a_response_that_jumps_makes_slow_noise_no_faster() {
             .collect();
         let told = from_repeats(&drive, &response).expect("cycles repeat");
         variance += told.deviation.powi(2) / f64::from(draws);
-        found += told.autoregression / f64::from(draws);
+        found += told.colour.neighbours() / f64::from(draws);
     }
     // A third of the samples tells the noise: the mean of forty draws scatters by 8 %.
     assert!((variance - 1.0).abs() < 0.2, "{variance}");
@@ -136,7 +137,7 @@ fn a_sine_that_grows_tells_its_noise_beside_a_response_that_is_not_linear() {
                 .collect();
             let told = from_steady_changes(&drive, &response).expect("cycles change steadily");
             variance += told.deviation.powi(2) / f64::from(draws);
-            found += told.autoregression / f64::from(draws);
+            found += told.colour.neighbours() / f64::from(draws);
         }
         // A draw's variance scatters by a quarter at a correlation of 0.8: the mean of forty by 4 %.
         assert!((variance - 1.0).abs() < 0.1, "{correlation}: {variance}");
@@ -163,4 +164,72 @@ fn what_is_not_smooth_over_the_cycles_is_not_told_as_noise() {
     // Third differences of this power are many times the noise, and fourth ones still twice.
     let steeper = told(1.8);
     assert!(steeper.is_none_or(|n| n.deviation < 1.5), "{steeper:?}");
+}
+
+/// Equal parts of white noise and of slow noise, as a converter's and an amplifier's: first-order noise with such neighbours would
+/// have a seventh of its density where it is slow.
+#[test]
+fn white_noise_beside_slow_noise_is_told_from_first_order_noise() {
+    let mut random = ChaCha8Rng::seed_from_u64(20);
+    let drive = stepped_sine();
+    let (mut told_both, mut independence) = (0, 0.0);
+    let draws = 40;
+    let expected = Colour {
+        slow: 0.9,
+        share: 0.5,
+    };
+    for _ in 0..draws {
+        let slow = coloured(&mut random, drive.len(), expected.slow);
+        let white = coloured(&mut random, drive.len(), 0.0);
+        let parts = drive.iter().zip(slow.iter().zip(&white));
+        let response: Vec<f64> = parts
+            .map(|(d, (s, w))| 50.0 * d + (s + w) / 2.0_f64.sqrt())
+            .collect();
+        let told = from_repeats(&drive, &response).expect("cycles repeat");
+        told_both += usize::from(told.colour.share < 1.0);
+        independence += told.colour.independence() / f64::from(draws);
+    }
+    assert!(told_both > 36, "{told_both}");
+    let ratio = independence / expected.independence();
+    println!("{told_both} {ratio}");
+    // By neighbours alone it would be four times that.
+    assert!((0.8..1.3).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn noise_of_the_first_order_is_taken_for_nothing_else() {
+    let mut random = ChaCha8Rng::seed_from_u64(21);
+    for samples in [100.0, 100.333] {
+        let phase = |i: u32| f64::from(i) * std::f64::consts::TAU / samples;
+        let drive: Vec<f64> = (0..1800).map(|i| phase(i).sin()).collect();
+        for correlation in [0.0, 0.5, 0.9] {
+            for _ in 0..40 {
+                let noise = coloured(&mut random, drive.len(), correlation);
+                let both = drive.iter().zip(&noise);
+                let response: Vec<f64> = both.map(|(d, n)| 50.0 * d + n).collect();
+                let told = from_repeats(&drive, &response).expect("cycles repeat");
+                assert_eq!(told.colour.share, 1.0, "{correlation}: {told:?}");
+            }
+        }
+    }
+}
+
+/// White noise, and a gain that falls with the cycles: what second differences leave of that is slow.
+#[test]
+fn a_response_that_changes_is_no_slow_noise() {
+    let mut random = ChaCha8Rng::seed_from_u64(22);
+    let drive = stepped_sine();
+    let mut told_both = 0;
+    for tenth in 0..40 {
+        let lasts = 100.0 + 20.0 * f64::from(tenth);
+        let noise = coloured(&mut random, drive.len(), 0.0);
+        let falls = |i: usize| 1.0 - 0.05 * (1.0 - (-(i as f64) / lasts).exp());
+        let response: Vec<f64> = (0..drive.len())
+            .map(|i| 50.0 * falls(i) * drive[i] + noise[i])
+            .collect();
+        let told = from_repeats(&drive, &response).expect("cycles repeat");
+        told_both += usize::from(told.colour.share < 1.0);
+    }
+    println!("{told_both}");
+    assert!(told_both < 3, "{told_both}");
 }

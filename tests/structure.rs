@@ -4,6 +4,7 @@
 use iwan::diagnose::structure::{Structure, structure};
 use iwan::identify::{Form, Prediction, Problem};
 use iwan::record::Record;
+use iwan::record::colour::Colour;
 use iwan::record::noise::Noise;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -52,7 +53,7 @@ fn seen_beside(
     };
     let noise = Noise {
         deviation: 1.0,
-        autoregression,
+        colour: Colour::first_order(autoregression),
         beyond,
         samples,
         repeated: true,

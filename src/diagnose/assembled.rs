@@ -18,7 +18,6 @@ use super::{catalogue, curves, gain, levels, whereabouts, words};
 use crate::identify::{Fit, exported};
 use crate::joint::{Joint, JointError};
 use crate::record::Record;
-use crate::record::noise::independence;
 
 /// What is told of the set that is kept, besides its causes.
 struct Told {
@@ -229,8 +228,8 @@ fn notes(
 fn noise(bench: &Bench, unit: &str) -> NoiseFinding {
     let count = bench.noise.len().max(1) as f64;
     let rms = (bench.noise.iter().map(|n| n.deviation.powi(2)).sum::<f64>() / count).sqrt();
-    let autoregression = bench.noise.iter().map(|n| n.autoregression).sum::<f64>() / count;
-    let rows = bench.whole.rows() as f64;
+    let alike = bench.noise.iter().map(|n| n.colour.neighbours());
+    let autoregression = alike.sum::<f64>() / count;
     NoiseFinding {
         rms,
         unit: unit.to_string(),
@@ -240,6 +239,6 @@ fn noise(bench: &Bench, unit: &str) -> NoiseFinding {
         } else {
             "residual of the best model, because too few cycles repeat".to_string()
         },
-        effective_samples: rows * independence(autoregression),
+        effective_samples: bench.whole.independent_rows(),
     }
 }

@@ -183,6 +183,7 @@ mod tests {
     use crate::identify::beginning::Beginning;
     use crate::identify::{Form, baseline};
     use crate::record::Record;
+    use crate::record::colour::Colour;
     use crate::record::noise::tests::drawn;
 
     /// A record of `samples` a quarter of whose stiffness creeps, of a joint that slips as well, in white noise: where
@@ -243,7 +244,7 @@ mod tests {
         let mut bench = creeping(14_000);
         let record = &mut bench.train.records[0];
         // White noise less half of that before has 1.25 times its variance.
-        record.autoregression = 0.5;
+        record.colour = Colour::first_order(0.5);
         record.weight.iter_mut().for_each(|w| *w /= 1.25_f64.sqrt());
         let first = baseline(&bench.train);
         let Bench { train, scale, .. } = &bench;

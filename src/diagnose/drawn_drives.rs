@@ -7,6 +7,7 @@ use crate::identify::beginning::Beginning;
 use crate::identify::{Fit, Form};
 use crate::record::Record;
 use crate::record::calm::fastest;
+use crate::record::colour::Colour;
 use crate::record::cycles::rms;
 use crate::record::resolution::{of_step, step_of_drive};
 use rand::{Rng, SeedableRng};
@@ -54,7 +55,10 @@ impl Drives<'_> {
 
     /// True where what is left is slow, so that slow noise may be either channel's.
     pub(super) fn may_be_slow(&self) -> bool {
-        self.bench.noise.iter().any(|n| n.autoregression > SLOW)
+        self.bench
+            .noise
+            .iter()
+            .any(|n| n.colour.neighbours() > SLOW)
     }
 
     /// The records as a model has them, with noise in the drive of which the joint felt nothing, read as these were: drives
@@ -74,8 +78,11 @@ impl Drives<'_> {
         let whole = &self.bench.whole;
         let (predicted, left) = (model.predict(whole), model.residuals(whole));
         let one = |(k, record): (usize, &Record)| {
-            let alike = self.bench.noise[k].autoregression;
-            let (of_drive, of_judged) = if slow { (alike, 0.0) } else { (0.0, alike) };
+            let alike = self.bench.noise[k].colour;
+            let (of_drive, of_judged) = match slow {
+                true => (alike, Colour::WHITE),
+                false => (Colour::WHITE, alike),
+            };
             let left = rms(&left[k]);
             let prepared = &whole.records[k];
             let (drive, judged) = (whole.channels(k).0, &predicted[k].judged);
@@ -99,7 +106,7 @@ impl Drives<'_> {
         &self,
         (k, record): (usize, &Record),
         drive: &[f64],
-        (alike, left): (f64, f64),
+        (alike, left): (Colour, f64),
         random: &mut ChaCha8Rng,
     ) -> (Vec<f64>, f64) {
         let [loud, adds] = self.noise[k];
@@ -141,13 +148,18 @@ fn is_quiet(noise: &[[f64; 2]]) -> bool {
 }
 
 /// Noise of a deviation whose neighbours go together.
-fn coloured(random: &mut ChaCha8Rng, count: usize, alike: f64, deviation: f64) -> Vec<f64> {
+fn coloured(random: &mut ChaCha8Rng, count: usize, alike: Colour, deviation: f64) -> Vec<f64> {
+    // Twelve uniform numbers have the variance one, and a sum that is nearly normal.
+    let mut white = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    let Colour { slow, share } = alike;
     let mut last = 0.0;
     let mut next = || {
-        // Twelve uniform numbers have the variance one, and a sum that is nearly normal.
-        let white = (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
-        last = alike * last + (1.0 - alike * alike).sqrt() * white;
-        deviation * last
+        last = slow * last + (1.0 - slow * slow).sqrt() * white();
+        let beside = match share < 1.0 {
+            true => (1.0 - share).sqrt() * white(),
+            false => 0.0,
+        };
+        deviation * (share.sqrt() * last + beside)
     };
     (0..count).map(|_| next()).collect()
 }

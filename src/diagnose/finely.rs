@@ -3,9 +3,9 @@
 use super::places::scatter;
 use super::prepare::Bench;
 use crate::causes::find;
-use crate::identify::weighing::whiten;
 use crate::identify::{self, Fit, Form, Problem, refit, refit_below};
 use crate::joint::effect::Acting;
+use crate::record::colour::White;
 use rayon::prelude::*;
 
 /// Parts of a step in which a mass that was found moves with the joint, and turns in which its share of a prescribed
@@ -176,10 +176,11 @@ fn capped(bench: &Bench, fit: &Fit) -> f64 {
     let whole = &bench.whole;
     let of_record = |(k, residuals): (usize, &Vec<f64>)| {
         let record = &whole.records[k];
-        let mut before = None;
+        let mut whitening = record.colour.whitening();
+        let (mut left, mut anew) = (White::default(), true);
         let each = residuals.iter().zip(&record.weight).map(|(residual, w)| {
-            let (white, _) = whiten(record.autoregression, *residual, before);
-            before = (*w > 0.0).then_some(*residual);
+            let white = left.next(&whitening.step(anew), *residual);
+            anew = *w <= 0.0;
             (w * white).powi(2).min(MOST)
         });
         each.sum::<f64>()

@@ -78,6 +78,8 @@ mod tests {
     use crate::identify::{Form, baseline};
     use crate::joint::effect::Acting;
     use crate::record::Record;
+    use crate::record::colour::Colour;
+    use crate::record::noise::Noise;
     use crate::record::noise::tests::drawn;
 
     /// Noise of the same mean square everywhere, that grows with the load, or half of it slow.
@@ -88,8 +90,9 @@ mod tests {
         Slow,
     }
 
-    /// How loud it is where a cubic spring acts, in noise that cycles have made known or not.
-    fn loud(kind: Kind, known: bool) -> f64 {
+    /// How loud it is where a cubic spring acts, in noise that cycles have made known or not, and that is taken for first-order
+    /// noise or not.
+    fn loud(kind: Kind, known: bool, first_order: bool) -> f64 {
         let mut drawn = drawn(20261126);
         let mut white = || 12.0_f64.sqrt() * (drawn() - 0.5);
         let time: Vec<f64> = (0..4000).map(|i| 0.01 * f64::from(i)).collect();
@@ -114,7 +117,14 @@ mod tests {
             time: Some(time),
             ..Record::default()
         };
-        let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        let mut bench = prepare(Form::Play, &[record], &[Beginning::default()]);
+        if first_order {
+            let colour = Colour::first_order(bench.noise[0].colour.neighbours());
+            bench.weigh(vec![Noise {
+                colour,
+                ..bench.noise[0]
+            }]);
+        }
         let current = baseline(&bench.train);
         let effect = find("cubic_stiffness").unwrap().effect();
         let values = vec![2e-15, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -131,7 +141,10 @@ mod tests {
     #[test]
     fn loud_noise_is_no_evidence() {
         // E sin¹⁴ / (E sin⁶ E sin⁸) is 2.45, of which twice a scatter of 0.034 is taken off.
-        let (grows, alike) = (loud(Kind::Grows, true), loud(Kind::Alike, true));
+        let (grows, alike) = (
+            loud(Kind::Grows, true, false),
+            loud(Kind::Alike, true, false),
+        );
         assert!((2.0..2.6).contains(&grows), "{grows}");
         assert!((1.0..1.1).contains(&alike), "{alike}");
     }
@@ -139,9 +152,12 @@ mod tests {
     /// Half slow and half fast, neighbours go together by 0.45, samples twice as far off by 0.405 and not by its square.
     #[test]
     fn what_goes_together_is_less_evidence() {
-        let (slow, taken) = (loud(Kind::Slow, false), loud(Kind::Slow, true));
+        let (slow, taken) = (loud(Kind::Slow, false, true), loud(Kind::Slow, true, true));
         assert!(slow > 1.5 && taken < 1.1, "{slow} {taken}");
-        let alike = loud(Kind::Alike, false);
+        let alike = loud(Kind::Alike, false, false);
         assert!((1.0..1.1).contains(&alike), "{alike}");
+        // Whitened as what it is, nothing goes together in it.
+        let both = loud(Kind::Slow, false, false);
+        assert!((1.0..1.15).contains(&both), "{both}");
     }
 }

@@ -179,16 +179,15 @@ impl Bench {
             .then_some(1.0 + NEARLY_RIGHT + SCATTER * self.noise_error())
     }
 
-    /// Standard error of what noise leaves of all rows, as a share of it: `n` samples of correlation `a` tell a variance to
-    /// `√(2 (1 + a²) / ((1 − a²) n))`, and every estimate is wrong alike in all rows that are weighed by it, of records
+    /// Standard error of what noise leaves of all rows, as a share of it: `n` samples tell a variance to `√(2/n)`,
+    /// `√(2 (1 + a²) / ((1 − a²) n))` where first-order noise correlates by `a`, and every estimate is wrong alike in all rows that are weighed by it, of records
     /// that borrow it as well.
     pub fn noise_error(&self) -> f64 {
         let mut told: Vec<(&Noise, f64)> = Vec::new();
         for (noise, record) in self.noise.iter().zip(&self.train.records) {
             let rows = record.rows() as f64;
-            let same = |n: &Noise| {
-                n.repeated && n.samples == noise.samples && n.autoregression == noise.autoregression
-            };
+            let same =
+                |n: &Noise| n.repeated && n.samples == noise.samples && n.colour == noise.colour;
             match told.iter_mut().find(|(n, _)| same(n)) {
                 Some((_, all)) => *all += rows,
                 None => told.push((noise, rows)),
@@ -196,8 +195,7 @@ impl Bench {
         }
         let whole: f64 = told.iter().map(|(_, rows)| rows).sum();
         let square = |(noise, rows): &(&Noise, f64)| {
-            let a = noise.autoregression.powi(2);
-            let independent = noise.told_by() * (1.0 - a) / (1.0 + a);
+            let independent = noise.told_by() * noise.colour.independence_of_squares();
             (rows / whole.max(1.0)).powi(2) * 2.0 / independent.max(1.0)
         };
         told.iter().map(square).sum::<f64>().sqrt()
@@ -218,11 +216,10 @@ impl Bench {
     /// Weighs every sample by the given noise, held-out ones not at all in `train`.
     pub fn weigh(&mut self, noise: Vec<Noise>) {
         for (k, noise) in noise.iter().enumerate() {
-            let a = noise.autoregression;
             let innovation = noise.innovation();
             for (problem, keep) in [(&mut self.whole, true), (&mut self.train, false)] {
                 let record = &mut problem.records[k];
-                record.autoregression = a;
+                record.colour = noise.colour;
                 let marks = self.held[k].iter().zip(&self.struck[k]);
                 for (i, (weight, (held, struck))) in record.weight.iter_mut().zip(marks).enumerate()
                 {

@@ -84,7 +84,7 @@ pub fn structure(problem: &Problem, predictions: &[Prediction], noise: &[Noise])
     let told = (0..noise.len()).filter(|&k| !noise[..k].contains(&noise[k]));
     let errors = SLOWER / (told.count().max(1) as f64).sqrt();
     let most = noise.iter().map(|n| Noise {
-        autoregression: n.most_alike(errors),
+        colour: n.most_alike(errors),
         ..*n
     });
     let [taken, alike] =
@@ -113,7 +113,7 @@ fn whitened_by(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -
         let unit = if innovation > 0.0 { innovation } else { 1.0 };
         let errors = judged.iter().zip(&prediction.judged).enumerate();
         let left = errors.map(|(i, (y, p))| (y - p, record.counts(i)));
-        let mut white = whitened(noise[k].autoregression, left);
+        let mut white = whitened(noise[k].colour, left);
         white.iter_mut().for_each(|w| *w /= unit);
         // What no fit answers for is no witness of how alike neighbours are either.
         let stretches = white.chunks_exact(STRETCH).enumerate();
@@ -341,6 +341,7 @@ mod tests {
     use super::*;
     use crate::identify::Form;
     use crate::record::Record;
+    use crate::record::colour::Colour;
     use rand::{Rng, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -348,7 +349,7 @@ mod tests {
     fn known(samples: usize) -> Noise {
         Noise {
             deviation: 1.0,
-            autoregression: 0.0,
+            colour: Colour::WHITE,
             beyond: 0.0,
             samples,
             repeated: true,
@@ -443,7 +444,7 @@ mod tests {
         let mut counts = |samples: usize| {
             let (record, noise) = left(0.8, 0.0, &mut random);
             let told = Noise {
-                autoregression: 0.65,
+                colour: Colour::first_order(0.65),
                 samples,
                 repeated: true,
                 ..noise

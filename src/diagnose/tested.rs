@@ -6,7 +6,6 @@ use super::places::{beyond_scatter, scatter};
 use super::prepare::Bench;
 use super::trials::{ALARM, all_plausible, dispersion, penalty};
 use crate::identify::{Fit, refit};
-use crate::record::noise::independence;
 
 /// The set without the causes that gain nothing on held-out data.
 ///
@@ -113,7 +112,7 @@ pub(super) fn each_unseen(bench: &Bench, mut each: impl FnMut(usize, usize, f64,
     for (k, held) in bench.held.iter().enumerate() {
         let (_, judged) = bench.whole.channels(k);
         let noise = &bench.noise[k];
-        let weight = independence(noise.autoregression) / noise.deviation.powi(2);
+        let weight = noise.colour.independence() / noise.deviation.powi(2);
         for i in (0..held.len()).filter(|&i| bench.is_unseen(k, i)) {
             each(k, i, judged[i], weight);
         }

@@ -2,6 +2,7 @@
 
 use crate::identify::weighing::whitened;
 use crate::identify::{Prediction, Problem};
+use crate::record::colour::Colour;
 use crate::record::noise::Noise;
 use std::f64::consts::TAU;
 
@@ -46,7 +47,7 @@ pub fn tone(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> O
         .iter()
         .enumerate()
         .filter_map(|(k, prediction)| {
-            let left = of_record(problem, (k, prediction), noise[k].autoregression);
+            let left = of_record(problem, (k, prediction), noise[k].colour);
             Some(Tone {
                 record: k,
                 ..told(&left)?
@@ -56,11 +57,11 @@ pub fn tone(problem: &Problem, predictions: &[Prediction], noise: &[Noise]) -> O
 }
 
 /// What is left of a record, whitened, about its mean; nothing where no fit answers for a sample.
-fn of_record(problem: &Problem, (k, prediction): (usize, &Prediction), a: f64) -> Vec<f64> {
+fn of_record(problem: &Problem, (k, prediction): (usize, &Prediction), colour: Colour) -> Vec<f64> {
     let (_, judged) = problem.channels(k);
     let record = &problem.records[k];
     let errors = judged.iter().zip(&prediction.judged).enumerate();
-    let mut left = whitened(a, errors.map(|(i, (y, p))| (y - p, record.counts(i))));
+    let mut left = whitened(colour, errors.map(|(i, (y, p))| (y - p, record.counts(i))));
     let silent = left.iter_mut().enumerate();
     for (_, w) in silent.filter(|(i, _)| !record.counts(*i)) {
         *w = 0.0;

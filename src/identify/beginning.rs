@@ -13,7 +13,6 @@ use super::past::{finely_moved, past, reconsidered};
 use super::prepared::Prepared;
 use super::problem::Problem;
 use crate::record::cycles::{span, turning_points};
-use crate::record::noise::independence;
 use rayon::prelude::*;
 
 /// How a record begins, in units of the driving channel.
@@ -188,9 +187,9 @@ fn beginning((form, doubted): (Form, bool), record: &Prepared, predicted: &[f64]
     let few = thinned(form, record, forgotten);
     // Slow noise is followed by any freedom: it counts for as few samples as vary by themselves.
     let weighted = record.weight.iter().filter(|w| **w > 0.0).count() as f64;
-    let samples = match few.autoregression == record.autoregression {
+    let samples = match few.colour == record.colour {
         true => weighted,
-        false => weighted * independence(record.autoregression),
+        false => weighted * record.colour.independence(),
     };
     let altogether = |beginning: &Beginning| least_misfit(&alone(form, &few, beginning));
     let (virgin_early, virgin_all) = rayon::join(|| left_early(&virgin), || altogether(&virgin));

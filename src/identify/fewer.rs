@@ -3,9 +3,9 @@
 use super::operators::Form;
 use super::prepared::Prepared;
 use super::problem::Problem;
+use crate::record::colour::Colour;
 use crate::record::cycles::cycles;
 use crate::record::mains::NOMINAL;
-use crate::record::noise::independence;
 
 /// Fewest samples per cycle that thinning leaves.
 const PER_CYCLE: usize = 40;
@@ -40,7 +40,7 @@ impl Problem {
         let wanted = (enough as f64 / self.independent_rows()).min(AS_MUCH);
         let spared = self.rows() / samples;
         let every = |r: &Prepared| {
-            let stays = |every: usize| share(r.autoregression, every) >= wanted;
+            let stays = |every: usize| share(r.colour, every) >= wanted;
             let seen = |every: &usize| stays(*every) && shows_mains(*every, r.mean_step());
             let most = r.sparsest(form).min(spared);
             (1..=most).rev().find(seen).unwrap_or(1)
@@ -53,25 +53,19 @@ impl Problem {
         for (record, every) in coarse.records.iter_mut().zip(every) {
             let length = record.time.len();
             record.pick(&record.few(form, (0, every, length)));
-            // weight = 1/innovation, innovation² = σ² (1 − a²)
-            let innovation = |a: f64| (1.0 - a * a).sqrt();
-            let before = record.autoregression;
-            record.autoregression = apart(before, every);
-            let gains = innovation(before) / innovation(record.autoregression);
+            // weight = 1/innovation
+            let before = record.colour;
+            record.colour = before.apart(every);
+            let gains = before.innovation() / record.colour.innovation();
             record.weight.iter_mut().for_each(|w| *w *= gains);
         }
         Some(coarse)
     }
 }
 
-/// Correlation of samples of which every `every`-th stays, by that of neighbours.
-fn apart(autoregression: f64, every: usize) -> f64 {
-    (0..every).fold(1.0, |product, _| product * autoregression)
-}
-
 /// Part of the independent samples that every `every`-th sample keeps.
-fn share(autoregression: f64, every: usize) -> f64 {
-    independence(apart(autoregression, every)) / (every as f64 * independence(autoregression))
+fn share(colour: Colour, every: usize) -> f64 {
+    colour.apart(every).independence() / (every as f64 * colour.independence())
 }
 
 impl Prepared {
@@ -137,18 +131,18 @@ impl Prepared {
         self.keep(&kept);
     }
 
-    /// Leaves the given samples, each standing for as many: where one stands for more than itself, noise of
-    /// correlation `a` counts as white with variance `σ² (1+a)/((1−a) m)`.
+    /// Leaves the given samples, each standing for as many: where one stands for more than itself, noise counts as
+    /// white, `σ² (1+a)/((1−a) m)` of first-order noise.
     pub fn keep(&mut self, kept: &[(usize, usize)]) {
         let indices: Vec<usize> = kept.iter().map(|(i, _)| *i).collect();
-        let a = self.autoregression;
+        let colour = self.colour;
         self.pick(&indices);
         if kept.iter().any(|(_, every)| *every > 1) {
-            // weight = 1/innovation, innovation² = σ² (1 − a²)
+            // weight = 1/innovation
             for (weight, (_, every)) in self.weight.iter_mut().zip(kept) {
-                *weight *= ((1.0 - a) * (1.0 - a) * *every as f64).sqrt();
+                *weight *= colour.innovation() * (colour.independence() * *every as f64).sqrt();
             }
-            self.autoregression = 0.0;
+            self.colour = Colour::WHITE;
         }
     }
 }
@@ -181,7 +175,7 @@ mod tests {
     #[test]
     fn a_thinned_record_keeps_its_beginning_its_turns_and_its_weight() {
         let mut few = prepared();
-        few.autoregression = 0.5;
+        few.colour = Colour::first_order(0.5);
         few.thin(Form::Play, (100, 7, 1000));
         let tenth = |i: f64| (100.0 * i).round() as usize;
         let kept: Vec<usize> = few.time.iter().map(|t| tenth(*t)).collect();
@@ -197,7 +191,7 @@ mod tests {
         // Noise of this correlation weighs a quarter as white noise, and as often as the sample stands for others.
         let squares = |from: usize| few.weight[from].powi(2);
         assert!((squares(0) - 0.25).abs() < 1e-12 && (squares(100) - 0.25 * 7.0).abs() < 1e-12);
-        assert_eq!(few.autoregression, 0.0);
+        assert_eq!(few.colour, Colour::WHITE);
     }
 
     #[test]
@@ -252,19 +246,19 @@ mod tests {
         // Of a cycle of 314 samples no more than seven may go for one that stays.
         assert!(problem.coarser((10, 10)).unwrap().rows() > 4000 / 8);
         // Slow noise says less by more samples, and as much by few of them.
-        problem.records[0].autoregression = 0.2;
+        problem.records[0].colour = Colour::first_order(0.2);
         let slow = problem.coarser((1000, 500)).unwrap();
         assert!((1300..1420).contains(&slow.rows()), "{}", slow.rows());
-        assert!((slow.records[0].autoregression - 0.2_f64.powi(3)).abs() < 1e-15);
+        assert!((slow.records[0].colour.slow - 0.2_f64.powi(3)).abs() < 1e-15);
         // 1/innovation of neighbours becomes that of samples three apart.
         let weight = slow.records[0].weight[1] / 1e10;
         assert!((weight - (0.96_f64 / (1.0 - 0.2_f64.powi(6))).sqrt()).abs() < 1e-12);
-        problem.records[0].autoregression = 0.9;
+        problem.records[0].colour = Colour::first_order(0.9);
         let slow = problem.coarser((1000, 1000)).unwrap();
         assert!(slow.independent_rows() > 0.9 * problem.independent_rows());
         assert!(slow.rows() < 1400, "{}", slow.rows());
         // Of noise whose neighbours say the opposite every other sample says much less.
-        problem.records[0].autoregression = -0.9;
+        problem.records[0].colour = Colour::first_order(-0.9);
         assert_eq!(problem.coarser((10_000, 10_000)), None);
     }
 }

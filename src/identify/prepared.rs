@@ -4,6 +4,7 @@ use super::beginning::Beginning;
 use super::operators::Form;
 use super::tips;
 use crate::record::Record;
+use crate::record::colour::Colour;
 use crate::record::peaks::Between;
 
 /// One record as the fit sees it.
@@ -21,8 +22,8 @@ pub struct Prepared {
     pub displacement: Vec<f64>,
     /// One over the noise's innovation at each sample; zero keeps a sample out of the fit.
     pub weight: Vec<f64>,
-    /// Correlation of neighbouring noise samples, removed from rows before they are summed.
-    pub autoregression: f64,
+    /// How alike neighbouring noise samples are, which is removed from rows before they are summed.
+    pub colour: Colour,
     /// What the input did between samples; no samples of their own, but the joint was there.
     pub between: Between,
     /// What the joint went through before the first sample.
@@ -48,7 +49,7 @@ impl Prepared {
             force: record.force.clone(),
             displacement: record.displacement.clone(),
             weight: vec![1.0; time.len()],
-            autoregression: 0.0,
+            colour: Colour::WHITE,
             beginning: Beginning::default(),
             time,
         };

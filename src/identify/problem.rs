@@ -4,10 +4,9 @@ use super::beginning::Beginning;
 use super::march::added;
 use super::operators::{Form, Operators};
 use super::prepared::Prepared;
-use super::weighing::whiten;
 use crate::joint::effect::{Acting, Trajectory};
 use crate::record::Record;
-use crate::record::noise::independence;
+use crate::record::colour::White;
 use crate::record::peaks::Between;
 use rayon::prelude::*;
 
@@ -159,12 +158,15 @@ impl Problem {
             let (_, measured) = self.channels(k);
             let record = &self.records[k];
             let (mut squares, mut product, mut norm) = (0.0, 0.0, 0.0);
-            let mut before = None;
+            let mut whitening = record.colour.whitening();
+            let (mut left, mut constant) = (White::default(), White::default());
+            let mut anew = true;
             let stand_off = self.stand_off(k, prediction);
             for ((&y, &p), &w) in measured.iter().zip(&prediction.judged).zip(&record.weight) {
                 let residual = y - p - stand_off;
-                let (z, one) = whiten(record.autoregression, residual, before);
-                before = (w > 0.0).then_some(residual);
+                let step = whitening.step(anew);
+                let (z, one) = (left.next(&step, residual), constant.next(&step, 1.0));
+                anew = w <= 0.0;
                 squares += (w * z).powi(2);
                 product += w * w * z * one;
                 norm += (w * one).powi(2);
@@ -183,11 +185,11 @@ impl Problem {
     }
 
     /// Samples with weight that count for a mean: correlated neighbours count as fewer,
-    /// `n (1 − a)/(1 + a)`.
+    /// `n (1 − a)/(1 + a)` of first-order noise.
     pub fn independent_rows(&self) -> f64 {
         let of = |r: &Prepared| {
             let rows = r.weight.iter().filter(|w| **w > 0.0).count() as f64;
-            rows * independence(r.autoregression)
+            rows * r.colour.independence()
         };
         self.records.iter().map(of).sum()
     }

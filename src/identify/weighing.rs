@@ -1,11 +1,14 @@
 //! Rows whitened and weighed as the noise of their record asks.
 
 use super::prepared::Prepared;
+use crate::record::colour::{Colour, White, Whitening};
 
 /// Whitens and weighs rows of one record, sample after sample.
 pub struct Weighing<'a> {
     record: &'a Prepared,
+    whitening: Whitening,
     before: Vec<f64>,
+    new: Vec<f64>,
     white: Vec<f64>,
 }
 
@@ -14,7 +17,9 @@ impl<'a> Weighing<'a> {
     pub fn new(record: &'a Prepared, size: usize) -> Self {
         Weighing {
             record,
+            whitening: record.colour.whitening(),
             before: vec![0.0; size],
+            new: vec![0.0; size],
             white: vec![0.0; size],
         }
     }
@@ -24,15 +29,21 @@ impl<'a> Weighing<'a> {
     #[inline]
     pub fn weigh(&mut self, i: usize, row: &[f64]) -> Option<&[f64]> {
         let weight = self.record.weight[i];
-        let a = self.record.autoregression;
         if weight > 0.0 {
-            let (factor, scale) = if i > 0 && self.record.counts(i - 1) {
-                (a, weight)
+            let anew = i == 0 || !self.record.counts(i - 1);
+            let step = self.whitening.step(anew);
+            let scale = weight * step.scale;
+            let rows = row.iter().zip(&self.before);
+            // First-order noise keeps nothing of what was new.
+            if !self.whitening.keeps() {
+                for (z, (x, b)) in self.white.iter_mut().zip(rows) {
+                    *z = (x - step.slow * b) * scale;
+                }
             } else {
-                (0.0, weight * (1.0 - a * a).max(0.0).sqrt())
-            };
-            for ((z, x), b) in self.white.iter_mut().zip(row).zip(&self.before) {
-                *z = (x - factor * b) * scale;
+                for ((z, new), (x, b)) in self.white.iter_mut().zip(&mut self.new).zip(rows) {
+                    *new = x - step.slow * b + step.kept * *new;
+                    *z = *new * scale;
+                }
             }
         }
         self.before.copy_from_slice(row);
@@ -40,25 +51,14 @@ impl<'a> Weighing<'a> {
     }
 }
 
-/// Removes first-order autoregression: the whitened value, and what a constant 1 becomes.
-#[inline]
-pub fn whiten(autoregression: f64, value: f64, before: Option<f64>) -> (f64, f64) {
-    match before {
-        Some(before) => (value - autoregression * before, 1.0 - autoregression),
-        None => {
-            let start = (1.0 - autoregression * autoregression).max(0.0).sqrt();
-            (start * value, start)
-        }
-    }
-}
-
 /// What is left of samples one after the other, whitened; behind one that does not count noise begins anew.
-pub fn whitened(autoregression: f64, left: impl Iterator<Item = (f64, bool)>) -> Vec<f64> {
-    let mut before = None;
+pub fn whitened(colour: Colour, left: impl Iterator<Item = (f64, bool)>) -> Vec<f64> {
+    let (mut whitening, mut white) = (colour.whitening(), White::default());
+    let mut anew = true;
     left.map(|(left, counts)| {
-        let (white, _) = whiten(autoregression, left, before);
-        before = counts.then_some(left);
-        white
+        let step = whitening.step(anew);
+        anew = !counts;
+        white.next(&step, left)
     })
     .collect()
 }

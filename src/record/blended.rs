@@ -1,5 +1,7 @@
 //! Noise of differences between cycles, some of whose values were read between samples.
 
+use super::colour::Colour;
+
 /// Weights of the samples of one cycle in a difference, four neighbours each.
 type Taps = [f64; 4];
 
@@ -35,6 +37,13 @@ impl Blended {
             }
         }
         powers
+    }
+
+    /// Variance of a difference of noise of unit variance and a colour.
+    pub(super) fn variance(&self, colour: Colour) -> f64 {
+        let powers = self.covariance(0);
+        let Colour { slow, share } = colour;
+        share * at(slow, &powers) + (1.0 - share) * powers[0]
     }
 
     /// Sum of the products of differences `lag` samples apart, and of how many pairs.

@@ -2,6 +2,7 @@
 
 mod blended;
 pub mod calm;
+pub mod colour;
 pub mod cut;
 pub mod cycles;
 pub mod evened;
@@ -19,6 +20,7 @@ mod rounded;
 mod spectrum;
 pub mod split;
 pub mod thinned;
+mod white_and_slow;
 pub mod written;
 
 /// Force and displacement of one test.

@@ -1,6 +1,7 @@
 //! The noise of a channel, read off what a model leaves or off the fastest variations.
 
 use super::blended::MOST_ALIKE;
+use super::colour::Colour;
 use super::spectrum::{FastNoise, fast_noise};
 
 /// Noise of one channel.
@@ -8,8 +9,8 @@ use super::spectrum::{FastNoise, fast_noise};
 pub struct Noise {
     /// Standard deviation, in the channel's unit.
     pub deviation: f64,
-    /// Correlation of neighbouring samples, 0 … 0.99.
-    pub autoregression: f64,
+    /// How alike neighbouring samples are: of first order, or slow and white noise at once.
+    pub colour: Colour,
     /// Correlation of neighbours that repeated cycles show in it once whitened: zero for first-order noise, large behind a
     /// filter far below half the sampling rate; zero where none told.
     pub beyond: f64,
@@ -31,21 +32,19 @@ impl Noise {
         }
     }
 
-    /// Deviation of what is new in every sample, `σ √(1 − a²)`.
+    /// Deviation of what is new in every sample, `σ √(1 − a²)` of first-order noise.
     pub fn innovation(&self) -> f64 {
-        self.deviation * (1.0 - self.autoregression * self.autoregression).sqrt()
+        self.deviation * self.colour.innovation()
     }
 
-    /// The largest correlation of neighbours within so many standard errors, `√((1 − a²)/n)` each (Bartlett).
-    pub fn most_alike(&self, errors: f64) -> f64 {
-        let a = self.autoregression;
-        let error = ((1.0 - a * a) / self.told_by().max(1.0)).sqrt();
-        (a + errors * error).min(MOST_ALIKE.max(a))
+    /// As slow as it may be within so many standard errors.
+    pub fn most_alike(&self, errors: f64) -> Colour {
+        self.colour.slower(errors, self.told_by(), MOST_ALIKE)
     }
 
     /// True of what varies too slowly to be noise: a model's error rather, or what cycles do not repeat.
     pub fn is_rather_structure(&self) -> bool {
-        self.autoregression > SLOW
+        self.colour.neighbours() > SLOW
     }
 
     /// Spectral density of whitened noise where it is largest over its mean, `(1 + c)/(1 − c)` with what whitening leaves of the
@@ -57,8 +56,7 @@ impl Noise {
     /// True where a few repeated cycles tell more slow noise than the fast part of the whole residual allows: one
     /// of them holds a change of the response, a jump of the gain, and too few are calm to tell it by.
     pub fn holds_a_change(&self, residual: &[f64]) -> bool {
-        let a = self.autoregression;
-        let independent = self.told_by() * (1.0 - a * a) / (1.0 + a * a);
+        let independent = self.told_by() * self.colour.independence_of_squares();
         independent < FEW && fast_beneath(self.deviation, residual).is_some()
     }
 }
@@ -79,11 +77,6 @@ fn fast_beneath(deviation: f64, residual: &[f64]) -> Option<FastNoise> {
 /// by −4/6, two apart by 1/6.
 const SHARED: f64 = 35.0 / 18.0;
 
-/// What a sample counts for in a mean whose neighbours vary with it.
-pub fn independence(autoregression: f64) -> f64 {
-    (1.0 - autoregression) / (1.0 + autoregression)
-}
-
 /// Noise of a residual that nothing repeats in.
 ///
 /// Its own variance and correlation of neighbours, unless the fast part of its spectrum belongs to
@@ -96,7 +89,7 @@ pub fn from_residual(residual: &[f64]) -> Noise {
     };
     Noise {
         deviation,
-        autoregression,
+        colour: Colour::first_order(autoregression),
         beyond: 0.0,
         samples: residual.len(),
         repeated: false,
@@ -123,7 +116,7 @@ pub(super) fn of_thirds(differences: &[f64], samples: usize) -> Noise {
     let median = squares.get(squares.len() / 2).copied().unwrap_or(0.0);
     Noise {
         deviation: (median / 0.4549).sqrt(),
-        autoregression: 0.0,
+        colour: Colour::WHITE,
         beyond: 0.0,
         samples,
         repeated: false,
@@ -175,7 +168,7 @@ pub mod tests {
     fn slow_noise_of_few_cycles_is_doubted_where_the_residual_has_none_so_fast() {
         let told = |samples| Noise {
             deviation: 5.0,
-            autoregression: 0.97,
+            colour: Colour::first_order(0.97),
             beyond: 0.0,
             samples,
             repeated: true,

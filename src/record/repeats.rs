@@ -1,9 +1,11 @@
 //! Noise of a channel where cycles of the drive repeat: no model is needed then.
 
 use super::blended::{Blended, beyond_first_order, moments};
+use super::colour::Colour;
 use super::cycles::{Cycle, alike, as_long, cycles, span};
 use super::noise::Noise;
 use super::peaks::between;
+use super::white_and_slow::white_and_slow;
 
 /// Noise from steady cycles: second differences over three equal cycles of the drive, so that a
 /// uniform change from cycle to cycle (drift, wear) cancels as well as the response itself.
@@ -84,21 +86,32 @@ const CONVERGED: f64 = 0.9;
 
 /// The noise of calm parts of differences.
 fn noise_of(parts: Vec<Blended>) -> Option<Noise> {
-    let calm = calm(parts);
-    let samples = count(&calm);
-    if samples < ENOUGH {
-        return None;
-    }
-    let calm = calm_between_neighbours(calm.iter().collect());
-    let samples = count(calm.iter().copied());
-    let (deviation, autoregression) = moments(&calm);
+    let first_order = |calm: &[&Blended]| Colour::first_order(moments(calm).1);
+    let calm = calm_parts(&parts, first_order)?;
+    // Slow noise beside white noise scatters the variance of a cycle more than first-order noise with such neighbours.
+    let wider = white_and_slow(&calm).and_then(|(_, colour)| calm_parts(&parts, |_| colour));
+    let both = wider.and_then(|wider| {
+        let (deviation, colour) = white_and_slow(&wider)?;
+        Some((deviation, colour, 0.0, count(wider)))
+    });
+    let (deviation, colour, beyond, samples) = both.unwrap_or_else(|| {
+        let (deviation, alike) = moments(&calm);
+        let beyond = beyond_first_order(&calm, alike);
+        (deviation, Colour::first_order(alike), beyond, count(calm))
+    });
     Some(Noise {
         deviation,
-        autoregression,
-        beyond: beyond_first_order(&calm, autoregression),
+        colour,
+        beyond,
         samples,
         repeated: true,
     })
+}
+
+/// Those parts that hold no change of the response; `None` where too few samples are left.
+fn calm_parts(parts: &[Blended], colour: impl Fn(&[&Blended]) -> Colour) -> Option<Vec<&Blended>> {
+    let calm = calm(parts, colour);
+    (count(calm.iter().copied()) >= ENOUGH).then(|| calm_between_neighbours(calm))
 }
 
 /// Fewest samples in repeated cycles from which noise is estimated.
@@ -199,15 +212,15 @@ fn binomial(count: usize) -> Vec<f64> {
 /// at least those within twice of it: the others hold a change of the response itself, which no
 /// noise estimate may contain.
 ///
-/// A cycle of correlated noise holds few independent samples, `n (1 − a²) / (1 + a²)` for a variance,
+/// A cycle of correlated noise holds few independent samples, `n (1 − a²) / (1 + a²)` for a variance of first-order noise,
 /// so its variance scatters more; the calmest cycles alone would make it too small and too white.
-fn calm(parts: Vec<Blended>) -> Vec<Blended> {
+fn calm(parts: &[Blended], colour: impl Fn(&[&Blended]) -> Colour) -> Vec<&Blended> {
     let mut squares: Vec<f64> = parts.iter().map(Blended::mean_square).collect();
     squares.sort_by(f64::total_cmp);
     let Some(&quartile) = squares.get(squares.len() / 4) else {
-        return parts;
+        return Vec::new();
     };
-    let mean_length = count(&parts) as f64 / parts.len() as f64;
+    let mean_length = count(parts) as f64 / parts.len() as f64;
     let within = |most: f64| -> Vec<&Blended> {
         let calm = |part: &&Blended| part.mean_square() <= most * quartile;
         parts.iter().filter(calm).collect()
@@ -219,15 +232,15 @@ fn calm(parts: Vec<Blended>) -> Vec<Blended> {
         if count(calm.iter().copied()) < ENOUGH {
             break;
         }
-        let (_, a) = moments(&calm);
-        let spread = (2.0 * (1.0 + a * a) / (1.0 - a * a) / mean_length).sqrt();
+        let independent = colour(&calm).independence_of_squares() * mean_length;
+        let spread = (2.0 / independent).sqrt();
         let wider = above_quartile(spread);
         if wider <= most {
             break;
         }
         most = wider;
     }
-    within(most).into_iter().cloned().collect()
+    within(most)
 }
 
 /// Keeps the runs whose neighbours differ by no more than noise as slow as theirs makes them, by the same measure.

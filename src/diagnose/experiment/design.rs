@@ -266,7 +266,7 @@ pub fn program(problem: &Problem, rig: &Rig, blocks: &[Block]) -> (Problem, f64)
     };
     let mut record = Prepared {
         weight: vec![rig.weight; count],
-        autoregression: rig.autoregression,
+        colour: rig.colour,
         ..Prepared::new(&played, problem.operators.form)
     };
     record.keep(&shown);

@@ -79,7 +79,7 @@ fn spring(bench: &Bench, dummy: &Record) -> (Problem, Fit) {
         ..noise
     };
     let record = &mut problem.records[0];
-    record.autoregression = noise.autoregression;
+    record.colour = noise.colour;
     // Those that stand alone keep none.
     let counted = record.weight.iter_mut().filter(|w| **w > 0.0);
     counted.for_each(|w| *w = 1.0 / noise.innovation());

@@ -3,6 +3,7 @@
 use super::program::Rig;
 use crate::diagnose::prepare::Bench;
 use crate::identify::{Form, Prepared};
+use crate::record::colour::Colour;
 use crate::record::cycles::cycles;
 
 /// Limits given by the user; `None` takes what the records show.
@@ -114,7 +115,7 @@ pub fn rigs(bench: &Bench, limits: &Limits) -> Vec<Rig> {
         duration: limits.duration.unwrap_or(duration),
         step: step.min(1.0 / (PER_CYCLE * rate)),
         weight: noisiest.map_or(1.0, heavy),
-        autoregression: noisiest.map_or(0.0, |r| r.autoregression),
+        colour: noisiest.map_or(Colour::WHITE, |r| r.colour),
     };
     let mut rigs = vec![
         of(near, seen.min(rate)),

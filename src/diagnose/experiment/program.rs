@@ -1,5 +1,6 @@
 //! Load programs: blocks of sine, triangle and hold, played on an even clock.
 
+use crate::record::colour::Colour;
 use crate::record::written::quantity;
 use std::f64::consts::{PI, TAU};
 
@@ -18,8 +19,8 @@ pub struct Rig {
     pub step: f64,
     /// One over the deviation of what is new in the noise of every sample of the judged channel, 1/N or 1/m.
     pub weight: f64,
-    /// Correlation of neighbours in that noise.
-    pub autoregression: f64,
+    /// How alike neighbours are in that noise.
+    pub colour: Colour,
 }
 
 /// One block of a program; amplitude and mean as shares of the rig's reach, the mean from the middle of its range.
@@ -284,7 +285,7 @@ mod tests {
             duration: 30.0,
             step: 0.004,
             weight: 1.0,
-            autoregression: 0.0,
+            colour: Colour::WHITE,
         };
         let menu = rig.menu();
         assert!(menu.len() > 8);
@@ -330,7 +331,7 @@ mod tests {
                 duration: 60.0,
                 step: 0.005,
                 weight: 1.0,
-                autoregression: 0.0,
+                colour: Colour::WHITE,
             };
             let menu = rig.menu();
             for blocks in menu.iter().map(std::slice::from_ref).chain([&menu[..]]) {
@@ -365,7 +366,7 @@ mod tests {
             duration: 12.0,
             step: 0.01,
             weight: 1.0,
-            autoregression: 0.0,
+            colour: Colour::WHITE,
         };
         assert!(rig.menu().iter().all(|b| b.seconds(&rig) <= 4.0));
     }
