@@ -167,7 +167,7 @@ fn what_is_not_smooth_over_the_cycles_is_not_told_as_noise() {
 }
 
 /// Equal parts of white noise and of slow noise, as a converter's and an amplifier's: first-order noise with such neighbours would
-/// have a seventh of its density where it is slow.
+/// have a quarter of its density where it is slow.
 #[test]
 fn white_noise_beside_slow_noise_is_told_from_first_order_noise() {
     let mut random = ChaCha8Rng::seed_from_u64(20);
@@ -191,7 +191,6 @@ fn white_noise_beside_slow_noise_is_told_from_first_order_noise() {
     }
     assert!(told_both > 36, "{told_both}");
     let ratio = independence / expected.independence();
-    println!("{told_both} {ratio}");
     // By neighbours alone it would be four times that.
     assert!((0.8..1.3).contains(&ratio), "{ratio}");
 }
@@ -230,6 +229,5 @@ fn a_response_that_changes_is_no_slow_noise() {
         let told = from_repeats(&drive, &response).expect("cycles repeat");
         told_both += usize::from(told.colour.share < 1.0);
     }
-    println!("{told_both}");
     assert!(told_both < 3, "{told_both}");
 }

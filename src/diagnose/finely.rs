@@ -3,9 +3,9 @@
 use super::places::scatter;
 use super::prepare::Bench;
 use crate::causes::find;
+use crate::identify::weighing::whitened;
 use crate::identify::{self, Fit, Form, Problem, refit, refit_below};
 use crate::joint::effect::Acting;
-use crate::record::colour::White;
 use rayon::prelude::*;
 
 /// Parts of a step in which a mass that was found moves with the joint, and turns in which its share of a prescribed
@@ -176,13 +176,10 @@ fn capped(bench: &Bench, fit: &Fit) -> f64 {
     let whole = &bench.whole;
     let of_record = |(k, residuals): (usize, &Vec<f64>)| {
         let record = &whole.records[k];
-        let mut whitening = record.colour.whitening();
-        let (mut left, mut anew) = (White::default(), true);
-        let each = residuals.iter().zip(&record.weight).map(|(residual, w)| {
-            let white = left.next(&whitening.step(anew), *residual);
-            anew = *w <= 0.0;
-            (w * white).powi(2).min(MOST)
-        });
+        let both = residuals.iter().zip(&record.weight);
+        let white = whitened(record.colour, both.map(|(left, w)| (*left, *w > 0.0)));
+        let weighed = white.iter().zip(&record.weight);
+        let each = weighed.map(|(white, w)| (w * white).powi(2).min(MOST));
         each.sum::<f64>()
     };
     fit.residuals(whole).iter().enumerate().map(of_record).sum()
