@@ -4,7 +4,7 @@
 #   scripts/scorecard.sh [ROUNDS] [SEED] [OUTPUT_DIR] [WORDS…]
 #
 # One round: every effect of the catalogue (23) at 0.1, 0.3, 1 and 5 times the noise, every effect outside it
-# (7) likewise, 25 clean records under each kind of noise, 20 pairs of effects, 12 clean records
+# (7) likewise, 25 clean records under each of five kinds of noise, 20 pairs of effects, 12 clean records
 # and 12 with an effect that are cut from a longer test or driven from another zero, as many of one joint that
 # goes on through all files, and the next experiment for whatever ended ambiguous, a dozen: some 300 cases,
 # about an hour on two cores. JOBS=2 sets how many run at a time. WORDS go to the laboratory:

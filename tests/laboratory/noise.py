@@ -1,14 +1,18 @@
-"""Noise of the channels: white, first-order coloured, growing with the load, or with outliers."""
+"""Noise of the channels: white, first-order coloured, growing with the load, with outliers, or both
+white and slow."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.signal import lfilter
 
-KINDS = ("white", "autoregressive", "load_dependent", "outliers")
+KINDS = ("white", "autoregressive", "load_dependent", "outliers", "white_and_slow")
 CORRELATION = 0.9  # from sample to sample, where the kind is asked for
 QUIET, LOUD = 0.3, 1.7  # standard deviation at no load and at the largest, before scaling
 OUTLIERS, WILD = 0.01, 10.0  # share of the samples, and their size over the others'
+# Of a converter and an amplifier: the share of the slow part in the variance, and its correlation
+# from sample to sample, each drawn evenly.
+PART, SLOW = (0.3, 0.7), (0.85, 0.96)
 
 
 def draw_colour(rng):
@@ -47,8 +51,13 @@ class Noise:
         top = max(float(np.max(np.abs(load))) for load in loads)
         loud = [QUIET + (LOUD - QUIET) * np.abs(load) / top for load in loads]
         norm = float(np.sqrt(np.mean(np.concatenate(loud) ** 2)))
+        part, slow = 0.0, 0.0
+        if self.kind == "white_and_slow":
+            part, slow = rng.uniform(*PART), rng.uniform(*SLOW)
         for shape in loud:
-            x = noise(rng, len(shape), rms, self.colour)
+            x = noise(rng, len(shape), rms * np.sqrt(1.0 - part), self.colour)
+            if part > 0.0:
+                x += noise(rng, len(shape), rms * np.sqrt(part), slow)
             if self.kind == "load_dependent":
                 x *= shape / norm
             elif self.kind == "outliers":

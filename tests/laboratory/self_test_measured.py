@@ -132,11 +132,15 @@ class Kinds(unittest.TestCase):
             both = np.abs(np.concatenate([load, 0.5 * load]))
             quiet, loud = np.std(x[both < 0.1]), np.std(x[both > 0.9])
             outside = np.mean(np.abs(x) > 8.0)  # of four deviations: 6e-5 of a Gaussian
-            lag = np.corrcoef(x[1:], x[:-1])[0, 1]
+            lag, far = (np.corrcoef(x[k:], x[:-k])[0, 1] for k in (1, 10))
             middle = np.subtract(*np.percentile(x, [75, 25])) / 1.349
             self.assertEqual(lag > 0.85, kind == "autoregressive", kind)
             self.assertEqual(loud > 3.0 * quiet, kind == "load_dependent", kind)
             self.assertEqual(outside > 5e-3, kind == "outliers", kind)
+            # Of first-order noise it is the tenth power.
+            self.assertEqual(
+                far > 2.0 * max(lag, 0.1) ** 10 and far > 0.05, kind == KINDS[-1], kind
+            )
             # Outliers come on top: it is the noise of the others that is as given.
             size = middle if kind == "outliers" else np.std(x)
             self.assertAlmostEqual(size, 2.0, delta=0.06, msg=kind)
