@@ -2,6 +2,7 @@
 
 use super::investigation::Investigation;
 use super::prepare::Bench;
+use super::search::Begun;
 use super::searched::searched;
 use super::trials::{ALARM, dispersion};
 use crate::identify::beginning::{at_zero, early};
@@ -32,7 +33,12 @@ impl Investigation {
         };
         progress("once more: what records went through that do not begin at zero is not known");
         let plain = baseline(&behind.train);
-        searched(behind, (plain, None), (timed, f64::INFINITY), progress)
+        searched(
+            behind,
+            (plain, Begun::default()),
+            (timed, f64::INFINITY),
+            progress,
+        )
     }
 }
 
@@ -132,7 +138,12 @@ mod tests {
             };
             let bench = prepare(Form::Play, &[record], &[Beginning::default()]);
             let first = baseline(&bench.train);
-            let found = searched(bench, (first, None), (true, f64::INFINITY), &mut |_| ());
+            let found = searched(
+                bench,
+                (first, Begun::default()),
+                (true, f64::INFINITY),
+                &mut |_| (),
+            );
             let effects = &found.found.best.effects;
             assert_eq!(effects[0].effect.name(), "offset_step");
             assert_eq!(found.tells_of_first_turns_alone(), tells, "{jumps_at} s");

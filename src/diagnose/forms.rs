@@ -12,20 +12,33 @@ use rayon::prelude::*;
 pub(super) fn of_other_forms(scores: &[Score], count: usize) -> impl Iterator<Item = &Score> {
     let behind = scores.iter().enumerate().skip(count);
     behind
-        .filter(move |(i, s)| scores[..*i].iter().all(|before| form(before) != form(s)))
+        .filter(move |(i, s)| {
+            scores[..*i]
+                .iter()
+                .all(|before| form_of(before) != form_of(s))
+        })
         .map(|(_, s)| s)
 }
 
-/// The form of a law that a score begins with: which of its values are not zero.
-fn form(score: &Score) -> Vec<bool> {
-    score.acting.values.iter().map(|v| *v != 0.0).collect()
+/// The form of a law that a score begins with.
+fn form_of(score: &Score) -> (&'static str, Vec<bool>) {
+    form(&score.acting)
+}
+
+/// The form of a law: which of its values are not zero.
+pub(super) fn form(acting: &Acting) -> (&'static str, Vec<bool>) {
+    let set = acting.values.iter().map(|v| *v != 0.0);
+    (acting.effect.name(), set.collect())
 }
 
 /// Scores sorted into forms, these and theirs in the order given.
 pub(super) fn by_form<'a>(scores: &[&'a Score]) -> Vec<Vec<&'a Score>> {
     let mut forms: Vec<Vec<&Score>> = Vec::new();
     for score in scores {
-        match forms.iter_mut().find(|own| form(own[0]) == form(score)) {
+        match forms
+            .iter_mut()
+            .find(|own| form_of(own[0]) == form_of(score))
+        {
             Some(own) => own.push(score),
             None => forms.push(vec![score]),
         }

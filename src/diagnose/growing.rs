@@ -1,12 +1,12 @@
 //! Sets of causes, grown forward from the baseline and from other first causes, and pruned backward.
 
+use super::beside::Beside;
 use super::coarsely::trials_of;
 use super::forms::at_other_places;
 use super::gridded::stays_on_a_finer_grid;
 use super::loud::heard;
 use super::places::{self, NEARLY};
 use super::prepare::Bench;
-use super::search::MOST;
 use super::tested::{Prospect, beyond_unseen, unseen_beyond_scatter, unseen_rows};
 use super::trials::{ALARM, Effort, Trial, alarm, all_plausible, dispersion};
 use crate::causes::{Cause, find};
@@ -41,17 +41,17 @@ const PREDICTORS: usize = 4;
 /// First causes, best first, beside which a second one is looked for where the set leaves structure.
 const BEGINNINGS: usize = 6;
 
-/// Forward selection with joint refits and pruning, from the `trials` beside the baseline.
+/// Forward selection with joint refits and pruning, from the `trials` beside the baseline, or from a set that is `known`.
 ///
 /// The first cause that is taken need not be of the true set: one that is neither of two may take more than
-/// each of them. Where the set leaves structure, it is grown from other first causes as well. Sets without prospect of a
-/// misfit below `wanted` are given up.
+/// each of them. Where the pair leaves structure, pairs are grown from other first causes as well before a third is asked
+/// for. Sets without prospect of a misfit below `wanted` are given up. With the set comes what was tried beside others.
 pub(super) fn grown(
     bench: &Bench,
     timed: bool,
-    (baseline, trials): (&Fit, &[Trial]),
+    (baseline, trials, known): (&Fit, &[Trial], Option<Fit>),
     (effort, wanted): (Effort, f64),
-) -> Fit {
+) -> (Fit, Vec<Beside>) {
     let grow = Grow {
         bench,
         timed,
@@ -59,18 +59,20 @@ pub(super) fn grown(
         baseline,
         wanted,
     };
+    let mut beside = Vec::new();
     // Of two neither may predict held-out cycles without the other.
-    let mut best = match grow.next(baseline, trials, f64::INFINITY) {
-        Some(one) => grow.on(one, trials),
+    let one = known.or_else(|| grow.next(baseline, trials, f64::INFINITY));
+    let mut best = match one {
+        Some(one) => grow.second(one, &mut beside),
         None => baseline.clone(),
     };
     if effort == Effort::Full
         && grow.leaves_another(baseline, &best)
         && let Some(two) = grow.elsewhere((baseline, &best), trials)
     {
-        best = grow.on(two, trials);
+        best = two;
     }
-    best
+    (grow.third(best, trials, &mut beside), beside)
 }
 
 /// Evidence that a cause must have; where a channel shows less noise than it resolves, what models are wrong by shows,
@@ -130,31 +132,46 @@ impl Grow<'_> {
         trials_of(asked, &bench.train, &bench.scale, current, asked_for)
     }
 
-    /// Adds causes to a set of one or two. A second cause stays until the places of both have been looked at.
-    fn on(&self, mut current: Fit, first: &[Trial]) -> Fit {
-        let problem = &self.bench.train;
-        while current.effects.len() < MOST {
-            let least = least(problem, self.baseline, &current.effects);
-            let enough = match current.effects.len() {
-                1 => current.misfit - least.min(0.5 * structure(problem, &current)),
-                // The last cause has to bring the set to what is wanted of it.
-                _ => (current.misfit - least).min(self.wanted),
-            };
-            if enough < OVERRATED * problem.rows() as f64 {
-                break;
-            }
-            let trials = self.beside(&current, (self.effort, enough));
-            let second = current.effects.len() == 1;
-            match self.next(&current, &trials, enough) {
-                Some(fit) if second => current = fit,
-                Some(fit) => {
-                    current = prune(self.bench, self.baseline, fit, first);
-                    break;
-                }
-                None => break,
-            }
+    /// One cause with a second, if one has enough evidence; that stays until the places of both have been looked at.
+    fn second(&self, one: Fit, beside: &mut Vec<Beside>) -> Fit {
+        if one.effects.len() != 1 {
+            return one;
         }
-        current
+        let share = self
+            .least(&one)
+            .min(0.5 * structure(&self.bench.train, &one));
+        let enough = one.misfit - share;
+        self.further(&one, enough, beside).unwrap_or(one)
+    }
+
+    /// Two causes with a third, pruned; the last cause has to bring the set to what is wanted of it.
+    fn third(&self, two: Fit, first: &[Trial], beside: &mut Vec<Beside>) -> Fit {
+        if two.effects.len() != 2 {
+            return two;
+        }
+        let enough = (two.misfit - self.least(&two)).min(self.wanted);
+        match self.further(&two, enough, beside) {
+            Some(three) => prune(self.bench, self.baseline, three, first),
+            None => two,
+        }
+    }
+
+    /// A set with a cause more that brings it below a misfit.
+    fn further(&self, current: &Fit, enough: f64, beside: &mut Vec<Beside>) -> Option<Fit> {
+        if enough < OVERRATED * self.bench.train.rows() as f64 {
+            return None;
+        }
+        let trials = self.beside(current, (self.effort, enough));
+        let next = self.next(current, &trials, enough);
+        // Every cause has to have been asked.
+        if self.effort == Effort::Full && !self.bench.wearing_sets {
+            beside.push(Beside::of(&self.bench.train, current, trials));
+        }
+        next
+    }
+
+    fn least(&self, set: &Fit) -> f64 {
+        least(&self.bench.train, self.baseline, &set.effects)
     }
 
     /// True where a set leaves structure, be it on held-out samples, and more than the laws of the right causes
@@ -332,7 +349,7 @@ mod tests {
                 baseline: &plain,
                 wanted,
             };
-            grow.on(two.clone(), &first)
+            grow.third(two.clone(), &first, &mut Vec::new())
         };
         let grown = on(f64::INFINITY);
         assert!(grown.misfit < 0.5 * two.misfit, "{grown:?}");

@@ -4,9 +4,8 @@ use super::growing::leaves_structure;
 use super::investigation::Investigation;
 use super::prepare::{Bench, prepare};
 use super::rule::Rule;
-use super::search::alone;
+use super::search::{Begun, alone};
 use super::searched::searched;
-use super::trials::Trial;
 use super::virgin::{Virgin, leaves_noise};
 use crate::identify::beginning::Beginning;
 use crate::identify::{Fit, Form, baseline};
@@ -16,8 +15,8 @@ use crate::record::Record;
 const ONCE_MORE: &str =
     "once more: a record may begin in the middle of a test, or its zero may be off";
 
-/// What a search begins from: the baseline, and every cause alone beside it where that is known.
-type Known = (Fit, Option<Vec<Trial>>);
+/// What a search begins from: the baseline, and what is known beside it.
+type Known = (Fit, Begun);
 
 /// Searches for causes in records of virgin joints and, where another beginning comes nearer to what a record
 /// shows first, in records that begin so; the likelier of both. Every joint was made new for its record.
@@ -70,7 +69,7 @@ pub(super) fn made_anew(
     let gone_on = all.first().is_some_and(Investigation::goes_on);
     if !(gone_on || explains) || all[0].may_be_beaten_by(&virgin.bench) {
         let asked = (timed, least_enough(&all).min(enough));
-        let from = (virgin.first, virgin.alone);
+        let from = (virgin.first, Begun::knowing(virgin.alone));
         all.push(searched(virgin.bench, from, asked, progress));
     }
     for other in others {
@@ -78,7 +77,7 @@ pub(super) fn made_anew(
         if rule.asks_another(&all[rule.likeliest(&all)], &bench) {
             progress(ONCE_MORE);
             let asked = (timed, least_enough(&all).min(enough));
-            let from = (baseline(&bench.train), None);
+            let from = (baseline(&bench.train), Begun::default());
             all.push(sharply_searched(bench, from, asked, progress));
         }
     }
@@ -90,7 +89,7 @@ pub(super) fn made_anew(
 fn begun_with((form, records): (Form, &[Record]), beginnings: &[Beginning]) -> (Bench, Known) {
     let begun = prepare(form, records, beginnings);
     let plain = baseline(&begun.train);
-    (begun, (plain, None))
+    (begun, (plain, Begun::default()))
 }
 
 /// The records with the first of the `others`, taken from these, where it alone leaves noise.
@@ -119,7 +118,10 @@ fn explained_by_one(
         let (begun, (plain, _)) = begun_with(records, other);
         let known = alone(&begun, timed, &plain);
         let one = begun.noise_is_repeated() && leaves_noise(&begun.train, &plain, &known);
-        (k, one.then_some((begun, (plain, Some(known)))))
+        (
+            k,
+            one.then_some((begun, (plain, Begun::knowing(Some(known))))),
+        )
     });
     let (k, begun) = tried.find(|(_, begun)| begun.is_some())?;
     others.remove(k);
@@ -139,7 +141,7 @@ pub(super) fn sharply_searched(
         true => {
             let Investigation { bench, found } = one;
             let asked = (timed, f64::INFINITY);
-            searched(bench, (found.baseline, None), asked, progress).sharpened()
+            searched(bench, (found.baseline, Begun::default()), asked, progress).sharpened()
         }
         false => one,
     }
@@ -173,7 +175,10 @@ mod tests {
         let (bench, (_, known)) =
             explained_by_one((Form::Play, &records), true, &mut others).unwrap();
         assert_eq!(bench.train.records[0].beginning, Beginning::at(0.15));
-        assert_eq!(known.unwrap()[0].cause.name(), "normal_load_variation");
+        assert_eq!(
+            known.alone.unwrap()[0].cause.name(),
+            "normal_load_variation"
+        );
         assert_eq!(others, [sought(), wrong()]);
         assert!(explained_by_one((Form::Play, &records), true, &mut others).is_none());
         assert_eq!(others, [sought(), wrong()]);

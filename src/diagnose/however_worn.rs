@@ -6,7 +6,7 @@ use super::growing::{FURTHER_SHARE, leaves_structure, noise_alone};
 use super::however_begun::{made_anew, sharply_searched};
 use super::investigation::Investigation;
 use super::prepare::Bench;
-use super::search::{Found, alone};
+use super::search::{Begun, Found, alone};
 use super::searched::{SEARCHING, searched};
 use super::trials::{ALARM, Effort, Trial, dispersion, one_leaves, trial_of};
 use super::virgin::Virgin;
@@ -45,7 +45,7 @@ pub(super) fn however_worn(
     let known = bench
         .wearing_sets
         .then(|| anew.alone_worn_on(&bench, timed));
-    let first = (anew.found.baseline.clone(), known);
+    let first = (anew.found.baseline.clone(), Begun::knowing(known));
     let enough = enough.min(anew.enough());
     let mut on = sharply_searched(bench, first, (timed, enough), progress);
     on.bench.wearing_sets = false;
@@ -91,7 +91,12 @@ fn worn_by_one_cause(
         return None;
     }
     progress(WORN_ON);
-    let on = searched(on, (first.clone(), None), (timed, enough), progress);
+    let on = searched(
+        on,
+        (first.clone(), Begun::default()),
+        (timed, enough),
+        progress,
+    );
     let best = &on.found.best;
     let one = best.effects.len() == 1 && !leaves_structure(&on.bench.train, best);
     let near = best.misfit + ALARM * on.dispersion();

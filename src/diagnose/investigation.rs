@@ -269,6 +269,7 @@ impl Investigation {
 mod tests {
     use super::*;
     use crate::diagnose::prepare::prepare;
+    use crate::diagnose::search::Begun;
     use crate::diagnose::search::tests::dashpot;
     use crate::diagnose::searched::searched;
     use crate::identify::Form;
@@ -282,7 +283,7 @@ mod tests {
         let bench = dashpot(20261128);
         let plain = baseline(&bench.train);
         let asked = (true, f64::INFINITY);
-        let here = searched(bench, (plain, None), asked, &mut |_| ());
+        let here = searched(bench, (plain, Begun::default()), asked, &mut |_| ());
         let gains = |there: &[Trial], wanted: f64| here.one_gains(|t| t.fit.misfit, there, wanted);
         let mut there = here.found.trials.clone();
         assert!(there.len() > 10 && !gains(&there, f64::INFINITY));
@@ -332,7 +333,8 @@ mod tests {
         assert!(!bench.noise_is_repeated());
         let plain = baseline(&bench.train);
         let asked = (true, f64::INFINITY);
-        let Investigation { bench, found } = searched(bench, (plain, None), asked, &mut |_| ());
+        let Investigation { bench, found } =
+            searched(bench, (plain, Begun::default()), asked, &mut |_| ());
         assert!(!found.best.effects.is_empty());
         let trials = found.trials.iter().map(|t| &t.fit);
         for fit in trials.chain([&found.best, &found.baseline]) {

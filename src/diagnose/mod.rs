@@ -3,6 +3,7 @@
 pub mod amplitude_table;
 mod assembled;
 mod backwards;
+mod beside;
 pub mod bootstrap;
 mod catalogue;
 mod coarsely;

@@ -1,5 +1,6 @@
 //! The place of each cause in a set of several: who else would do there, beside the others.
 
+use super::beside::Beside;
 use super::coarsely::trials;
 use super::growing::FURTHER_SHARE;
 use super::prepare::Bench;
@@ -24,13 +25,13 @@ pub struct Place {
 }
 
 /// The places of a set, in the order of its effects; `first` are the trials beside the baseline, which
-/// are those of a single cause's place, and `known` those of the last place, where the others have not
-/// changed since they were made.
+/// are those of a single cause's place, those `beside` others are from before, and `known` those of the last place, where the
+/// others have not changed since they were made.
 pub fn places(
     bench: &Bench,
     timed: bool,
     best: &Fit,
-    first: &[Trial],
+    (first, beside): (&[Trial], &[Beside]),
     mut known: Option<Vec<Trial>>,
 ) -> Vec<Place> {
     let problem = &bench.train;
@@ -55,7 +56,10 @@ pub fn places(
                         true => held,
                         false => less,
                     };
-                    trials(problem, &bench.scale, timed, &start, (Effort::Full, wanted))
+                    let place = (problem, &bench.scale);
+                    Beside::again(beside, place, &start, wanted).unwrap_or_else(|| {
+                        trials(problem, &bench.scale, timed, &start, (Effort::Full, wanted))
+                    })
                 }
             };
             Place {
@@ -126,6 +130,11 @@ pub fn exchanged(bench: &Bench, best: &Fit, places: &[Place]) -> Option<(Fit, Ve
 }
 
 impl Place {
+    /// What was tried here, beside `others`.
+    pub(super) fn beside(&self, problem: &Problem, others: Vec<Acting>) -> Beside {
+        Beside::asked(problem, others, self.trials.clone())
+    }
+
     /// Causes in this place, the named one as it was fitted here included; not those whose refit was not worth
     /// beginning.
     fn able(&self) -> impl Iterator<Item = &Trial> {

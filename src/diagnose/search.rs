@@ -1,6 +1,7 @@
 //! The search: every cause scored at its vanishing size, the promising ones refitted jointly with
 //! the baseline, the best set grown, its causes exchanged for better ones, and pruned.
 
+use super::beside::Beside;
 use super::coarsely::trials;
 use super::finely::{finely, finely_anew};
 use super::growing::{grown, prune, share};
@@ -28,9 +29,45 @@ pub struct Found {
     pub rivals: Vec<Vec<String>>,
     /// For each named cause: evidence it brings beside the others.
     pub evidence: Vec<f64>,
+    /// For each named cause: every cause tried in its place.
+    pub beside: Vec<Beside>,
     /// True where rivals and evidence were not asked for: other beginnings or drives of the same records are likelier,
     /// or may be.
     pub unasked: bool,
+}
+
+/// What a search begins with, as far as it is known.
+#[derive(Debug, Clone, Default)]
+pub struct Begun {
+    /// Every cause alone beside the baseline.
+    pub alone: Option<Vec<Trial>>,
+    /// A set of causes that is grown on, where it is not empty.
+    pub set: Vec<Acting>,
+    /// What was tried beside others.
+    pub beside: Vec<Beside>,
+}
+
+impl Begun {
+    /// With every cause alone beside the baseline, where that is known.
+    pub(super) fn knowing(alone: Option<Vec<Trial>>) -> Begun {
+        Begun {
+            alone,
+            ..Begun::default()
+        }
+    }
+
+    /// Of records that were searched before, where noise, cells or samples were others: several causes that suit them are
+    /// grown on, and their places looked at again. Beside one the best of all is asked for anew.
+    pub(super) fn after(found: &Found, suits: &[Acting]) -> Begun {
+        Begun {
+            alone: None,
+            set: match suits.len() > 1 {
+                true => suits.to_vec(),
+                false => Vec::new(),
+            },
+            beside: found.beside.clone(),
+        }
+    }
 }
 
 /// What stands at these places.
@@ -44,6 +81,7 @@ impl Found {
         Found {
             rivals: vec![Vec::new(); best.effects.len()],
             evidence: vec![0.0; best.effects.len()],
+            beside: Vec::new(),
             baseline,
             best,
             trials,
@@ -107,7 +145,7 @@ impl Found {
 pub fn quick(bench: &Bench, timed: bool, baseline: &Fit) -> Fit {
     let asked = (Effort::Quick, f64::INFINITY);
     let trials = trials(&bench.train, &bench.scale, timed, baseline, asked);
-    grown(bench, timed, (baseline, &trials), asked)
+    grown(bench, timed, (baseline, &trials, None), asked).0
 }
 
 /// Every cause alone beside the baseline, as a search begins with.
@@ -119,35 +157,41 @@ pub(super) fn alone(bench: &Bench, timed: bool, baseline: &Fit) -> Vec<Trial> {
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals; where the set leaves more than
 /// `enough` of every row, in noise variances, it is not asked further.
 ///
-/// Every cause alone is tried first, unless that is `known`. A mass that moves with the joint is marched in shorter
+/// Every cause alone is tried first, and a set grown from those, where they are not known as the search is `begun`. A mass that moves with the joint is marched in shorter
 /// steps, or more turns, from where it was found, if they suit it better.
 pub fn search(
     bench: &mut Bench,
     timed: bool,
-    (baseline, known): (Fit, Option<Vec<Trial>>),
+    (baseline, begun): (Fit, Begun),
     enough: f64,
 ) -> Found {
     let enough = enough * bench.train.rows() as f64;
-    let first = known.unwrap_or_else(|| alone(bench, timed, &baseline));
-    let best = grown(bench, timed, (&baseline, &first), (Effort::Full, enough));
+    let first = begun.alone;
+    let first = first.unwrap_or_else(|| alone(bench, timed, &baseline));
+    let asked = (Effort::Full, enough);
+    let set = (!begun.set.is_empty()).then(|| refit(&bench.train, &baseline, begun.set));
+    let (best, mut beside) = grown(bench, timed, (&baseline, &first, set), asked);
+    beside.extend(begun.beside);
     if best.misfit > enough {
         return Found::unasked(baseline, best, first);
     }
     let best = finely(bench, best);
     let before = best.clone();
-    let (settled, mut places) = settled(bench, timed, (&baseline, best), &first);
+    let (settled, mut places) = settled(bench, timed, (&baseline, best), (&first, &beside));
     let settled = finely_anew(bench, &before, settled);
     let mut best = tested(bench, &baseline, settled.clone());
     if best.effects != settled.effects {
-        places = places::places(bench, timed, &best, &first, None);
+        places = places::places(bench, timed, &best, (&first, &beside), None);
     }
     // Without it another minimum of the others was met that leaves no more.
     while let Some(idle) = places.iter().position(|p| p.brought <= 0.0) {
         best = places::alone(&bench.train, &best, best.others(idle), &first);
-        places = places::places(bench, timed, &best, &first, None);
+        places = places::places(bench, timed, &best, (&first, &beside), None);
     }
     let scale = dispersion(&bench.train, &best);
+    let of_place = |(k, place): (usize, &Place)| place.beside(&bench.train, best.others(k));
     Found {
+        beside: places.iter().enumerate().map(of_place).collect(),
         rivals: places.iter().map(|p| p.rivals(bench, &best)).collect(),
         evidence: places.iter().map(|p| p.brought / scale).collect(),
         baseline,
@@ -164,9 +208,10 @@ fn settled(
     bench: &Bench,
     timed: bool,
     (baseline, mut best): (&Fit, Fit),
-    first: &[Trial],
+    (first, beside): (&[Trial], &[Beside]),
 ) -> (Fit, Vec<Place>) {
-    let mut places = places::places(bench, timed, &best, first, None);
+    let tried = (first, beside);
+    let mut places = places::places(bench, timed, &best, tried, None);
     for _ in 0..MOST {
         if best.effects.len() < 2 {
             break;
@@ -175,12 +220,12 @@ fn settled(
             break;
         };
         best = better;
-        places = places::places(bench, timed, &best, first, Some(known));
+        places = places::places(bench, timed, &best, tried, Some(known));
     }
     let share = share(bench, baseline, &best);
     if best.effects.len() > 1 && places.iter().any(|place| place.brought < share) {
         best = prune(bench, baseline, best, first);
-        places = places::places(bench, timed, &best, first, None);
+        places = places::places(bench, timed, &best, tried, None);
     }
     (best, places)
 }
@@ -215,7 +260,14 @@ pub(super) mod tests {
     fn what_leaves_more_than_enough_is_given_up() {
         let bench = dashpot(20261126);
         let plain = baseline(&bench.train);
-        let asked = |enough: f64| search(&mut bench.clone(), true, (plain.clone(), None), enough);
+        let asked = |enough: f64| {
+            search(
+                &mut bench.clone(),
+                true,
+                (plain.clone(), Begun::default()),
+                enough,
+            )
+        };
         let (found, beaten) = (asked(f64::INFINITY), asked(0.01));
         assert!(!found.unasked && found.evidence[0] > 0.0, "{found:?}");
         assert!(beaten.unasked && beaten.best.misfit <= found.best.misfit * 1.001);

@@ -3,9 +3,8 @@
 
 use super::investigation::Investigation;
 use super::prepare::Bench;
-use super::search::{Found, quick, search};
+use super::search::{Begun, Found, quick, search};
 use super::taught::taught;
-use super::trials::Trial;
 use crate::identify::{Fit, baseline, refit};
 use crate::joint::effect::Acting;
 
@@ -15,21 +14,21 @@ pub(super) const SEARCHING: &str = "searching the catalogue for causes";
 /// Said where they are tried again with what the first ones taught.
 const KNOWN_BETTER: &str = "once more: noise or joint are known better beside what was found";
 
-/// What is found from the baseline of the records as they are weighed, and every cause alone where that is `known`; what
+/// What is found from the baseline of the records as they are weighed, and what is known as a search of them is `begun`; what
 /// leaves more than `enough` of every row is not asked further.
 pub(super) fn searched(
     mut bench: Bench,
-    (mut first, mut known): (Fit, Option<Vec<Trial>>),
+    (mut first, mut begun): (Fit, Begun),
     (timed, enough): (bool, f64),
     progress: &mut impl FnMut(&str),
 ) -> Investigation {
     if !bench.noise_is_repeated() {
         first = noise_told(&mut bench, timed, first, progress);
-        known = None;
+        begun.alone = None;
     }
     let enough = enough / bench.innovation_square();
     progress(SEARCHING);
-    let found = search(&mut bench, timed, (first, known), enough);
+    let found = search(&mut bench, timed, (first, begun), enough);
     let again = match found.unasked {
         true => None,
         false => taught(&bench, &found.best),
@@ -42,8 +41,12 @@ pub(super) fn searched(
         if taught.finds_the_same {
             return taught.again(&one.found, (first, known));
         }
+        let begun = Begun {
+            alone: Some(known),
+            ..Begun::after(&one.found, &taught.suits)
+        };
         let mut bench = taught.bench;
-        let found = search(&mut bench, timed, (first, Some(known)), f64::INFINITY);
+        let found = search(&mut bench, timed, (first, begun), f64::INFINITY);
         Investigation { bench, found }
     });
     match again {

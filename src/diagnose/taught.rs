@@ -35,7 +35,7 @@ pub(super) struct Taught {
     /// The records.
     pub(super) bench: Bench,
     /// The set, or one of a cause less.
-    suits: Vec<Acting>,
+    pub(super) suits: Vec<Acting>,
     /// True where the same set would be found: of less noise it leaves much more than that.
     pub(super) finds_the_same: bool,
 }
@@ -85,6 +85,7 @@ impl Taught {
                 trials: known,
                 rivals: found.rivals.clone(),
                 evidence: found.evidence.clone(),
+                beside: found.beside.clone(),
                 unasked: found.unasked,
             },
             bench: self.bench,

@@ -5,6 +5,7 @@ use super::driven::however_driven;
 use super::investigation::Investigation;
 use super::places::scatter;
 use super::prepare::Bench;
+use super::search::Begun;
 use super::searched::searched;
 use super::tested::each_unseen;
 use super::trials::ALARM;
@@ -82,7 +83,12 @@ pub fn investigated(
         true => f64::INFINITY,
         false => bench.innovation_square() * (1.0 + beyond),
     };
-    let again = searched(bench, (plain, None), (timed, enough), progress);
+    // What was tried before had not seen what happened.
+    let begun = Begun {
+        beside: Vec::new(),
+        ..Begun::after(&first.found, &first.found.best.effects)
+    };
+    let again = searched(bench, (plain, begun), (timed, enough), progress);
     if again.found.unasked {
         return first;
     }
