@@ -1,16 +1,13 @@
 //! Trials beside a set that are known from before: of the place of the cause that was taken from them, or of its place
 //! before noise or cells were known better.
 
-use super::coarsely::trials_again;
+use super::coarsely::{BEHIND, trials_again};
 use super::forms::form;
 use super::trials::{Effort, Trial};
 use crate::causes::Scale;
 use crate::identify::operators::Operators;
 use crate::identify::{Fit, Problem};
 use crate::joint::effect::Acting;
-
-/// Share of the fall from the set alone to the best of the trials by which any of them was followed behind that one.
-const FOLLOWED: f64 = 0.05;
 
 /// Every cause that was tried beside these.
 #[derive(Debug, Clone)]
@@ -31,10 +28,8 @@ impl Beside {
         let plausible = trials.iter().filter(|t| t.plausible);
         let lowest = plausible.fold(set.misfit, |least, t| least.min(t.fit.misfit));
         Beside {
-            others: set.effects.clone(),
-            trials,
-            cells: problem.operators.clone(),
-            below: lowest + FOLLOWED * (set.misfit - lowest),
+            below: lowest + BEHIND * (set.misfit - lowest),
+            ..Beside::asked(problem, set.effects.clone(), trials)
         }
     }
 
@@ -96,7 +91,7 @@ mod tests {
         let first = tried[0].clone();
         assert!(first.fit.misfit < 0.5 * drift.misfit);
         let known = [Beside::of(&bench.train, &drift, tried)];
-        let near = first.fit.misfit + 0.5 * FOLLOWED * (drift.misfit - first.fit.misfit);
+        let near = first.fit.misfit + 0.5 * BEHIND * (drift.misfit - first.fit.misfit);
         let again = Beside::again(&known, place, &drift, near).unwrap();
         assert_eq!(again[0].cause.name(), first.cause.name());
         assert!((again[0].fit.misfit - first.fit.misfit).abs() < 1.0);

@@ -23,7 +23,7 @@ const ASTRAY: f64 = 0.03;
 
 /// Share of the leader's fall by which a cause may stay behind that is fitted to all samples: few have shown what its
 /// refinements bring.
-const BEHIND: f64 = 0.05;
+pub(super) const BEHIND: f64 = 0.05;
 
 /// Share of a misfit that a set may leave more of few samples than of all: turning points stay all, and are counted for as
 /// much as the others; limits that follow what the joint does follow longer steps.

@@ -15,14 +15,9 @@ pub(super) fn of_other_forms(scores: &[Score], count: usize) -> impl Iterator<It
         .filter(move |(i, s)| {
             scores[..*i]
                 .iter()
-                .all(|before| form_of(before) != form_of(s))
+                .all(|before| form(&before.acting) != form(&s.acting))
         })
         .map(|(_, s)| s)
-}
-
-/// The form of a law that a score begins with.
-fn form_of(score: &Score) -> (&'static str, Vec<bool>) {
-    form(&score.acting)
 }
 
 /// The form of a law: which of its values are not zero.
@@ -37,7 +32,7 @@ pub(super) fn by_form<'a>(scores: &[&'a Score]) -> Vec<Vec<&'a Score>> {
     for score in scores {
         match forms
             .iter_mut()
-            .find(|own| form_of(own[0]) == form_of(score))
+            .find(|own| form(&own[0].acting) == form(&score.acting))
         {
             Some(own) => own.push(score),
             None => forms.push(vec![score]),

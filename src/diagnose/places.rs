@@ -56,8 +56,8 @@ pub fn places(
                         true => held,
                         false => less,
                     };
-                    let place = (problem, &bench.scale);
-                    Beside::again(beside, place, &start, wanted).unwrap_or_else(|| {
+                    let scaled = (problem, &bench.scale);
+                    Beside::again(beside, scaled, &start, wanted).unwrap_or_else(|| {
                         trials(problem, &bench.scale, timed, &start, (Effort::Full, wanted))
                     })
                 }

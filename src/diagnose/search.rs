@@ -29,8 +29,6 @@ pub struct Found {
     pub rivals: Vec<Vec<String>>,
     /// For each named cause: evidence it brings beside the others.
     pub evidence: Vec<f64>,
-    /// For each named cause: every cause tried in its place.
-    pub beside: Vec<Beside>,
     /// True where rivals and evidence were not asked for: other beginnings or drives of the same records are likelier,
     /// or may be.
     pub unasked: bool,
@@ -58,14 +56,13 @@ impl Begun {
 
     /// Of records that were searched before, where noise, cells or samples were others: several causes that suit them are
     /// grown on, and their places looked at again. Beside one the best of all is asked for anew.
-    pub(super) fn after(found: &Found, suits: &[Acting]) -> Begun {
+    pub(super) fn from_several(suits: &[Acting]) -> Begun {
         Begun {
-            alone: None,
             set: match suits.len() > 1 {
                 true => suits.to_vec(),
                 false => Vec::new(),
             },
-            beside: found.beside.clone(),
+            ..Begun::default()
         }
     }
 }
@@ -81,7 +78,6 @@ impl Found {
         Found {
             rivals: vec![Vec::new(); best.effects.len()],
             evidence: vec![0.0; best.effects.len()],
-            beside: Vec::new(),
             baseline,
             best,
             trials,
@@ -157,14 +153,15 @@ pub(super) fn alone(bench: &Bench, timed: bool, baseline: &Fit) -> Vec<Trial> {
 /// Grows the set of causes, prunes it, tests it on held-out cycles, and lists rivals; where the set leaves more than
 /// `enough` of every row, in noise variances, it is not asked further.
 ///
-/// Every cause alone is tried first, and a set grown from those, where they are not known as the search is `begun`. A mass that moves with the joint is marched in shorter
-/// steps, or more turns, from where it was found, if they suit it better.
+/// Every cause alone is tried first, and a set grown from those, where they are not known as the search is `begun`. A mass
+/// that moves with the joint is marched in shorter steps, or more turns, from where it was found, if they suit it better.
+/// With what is found comes what was tried in the place of each cause.
 pub fn search(
     bench: &mut Bench,
     timed: bool,
     (baseline, begun): (Fit, Begun),
     enough: f64,
-) -> Found {
+) -> (Found, Vec<Beside>) {
     let enough = enough * bench.train.rows() as f64;
     let first = begun.alone;
     let first = first.unwrap_or_else(|| alone(bench, timed, &baseline));
@@ -173,7 +170,7 @@ pub fn search(
     let (best, mut beside) = grown(bench, timed, (&baseline, &first, set), asked);
     beside.extend(begun.beside);
     if best.misfit > enough {
-        return Found::unasked(baseline, best, first);
+        return (Found::unasked(baseline, best, first), beside);
     }
     let best = finely(bench, best);
     let before = best.clone();
@@ -190,15 +187,16 @@ pub fn search(
     }
     let scale = dispersion(&bench.train, &best);
     let of_place = |(k, place): (usize, &Place)| place.beside(&bench.train, best.others(k));
-    Found {
-        beside: places.iter().enumerate().map(of_place).collect(),
+    let beside = places.iter().enumerate().map(of_place).collect();
+    let found = Found {
         rivals: places.iter().map(|p| p.rivals(bench, &best)).collect(),
         evidence: places.iter().map(|p| p.brought / scale).collect(),
         baseline,
         best,
         trials: first,
         unasked: false,
-    }
+    };
+    (found, beside)
 }
 
 /// Exchanges causes of a set of several as long as that makes it better.
@@ -267,6 +265,7 @@ pub(super) mod tests {
                 (plain.clone(), Begun::default()),
                 enough,
             )
+            .0
         };
         let (found, beaten) = (asked(f64::INFINITY), asked(0.01));
         assert!(!found.unasked && found.evidence[0] > 0.0, "{found:?}");

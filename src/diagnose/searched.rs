@@ -28,7 +28,7 @@ pub(super) fn searched(
     }
     let enough = enough / bench.innovation_square();
     progress(SEARCHING);
-    let found = search(&mut bench, timed, (first, begun), enough);
+    let (found, beside) = search(&mut bench, timed, (first, begun), enough);
     let again = match found.unasked {
         true => None,
         false => taught(&bench, &found.best),
@@ -43,10 +43,11 @@ pub(super) fn searched(
         }
         let begun = Begun {
             alone: Some(known),
-            ..Begun::after(&one.found, &taught.suits)
+            beside,
+            ..Begun::from_several(&taught.suits)
         };
         let mut bench = taught.bench;
-        let found = search(&mut bench, timed, (first, begun), f64::INFINITY);
+        let (found, _) = search(&mut bench, timed, (first, begun), f64::INFINITY);
         Investigation { bench, found }
     });
     match again {

@@ -85,7 +85,6 @@ impl Taught {
                 trials: known,
                 rivals: found.rivals.clone(),
                 evidence: found.evidence.clone(),
-                beside: found.beside.clone(),
                 unasked: found.unasked,
             },
             bench: self.bench,

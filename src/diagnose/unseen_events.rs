@@ -84,10 +84,7 @@ pub fn investigated(
         false => bench.innovation_square() * (1.0 + beyond),
     };
     // What was tried before had not seen what happened.
-    let begun = Begun {
-        beside: Vec::new(),
-        ..Begun::after(&first.found, &first.found.best.effects)
-    };
+    let begun = Begun::from_several(&first.found.best.effects);
     let again = searched(bench, (plain, begun), (timed, enough), progress);
     if again.found.unasked {
         return first;

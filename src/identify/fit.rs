@@ -229,7 +229,7 @@ fn begin(problem: &Problem, start: &Fit, effects: Vec<Acting>, steps: Steps) -> 
 struct Steps {
     most: usize,
     longest: usize,
-    /// A refit is given up that would need more than [`PROSPECT`] steps like its last one to come below this misfit,
+    /// A refit is given up that would need more than [`PROSPECT`] steps like its last one, [`FIRST`] at first, to come below this misfit,
     /// or more than [`CREDITED`] as the next one is foretold.
     bound: f64,
     /// Misfit without the newest effect: a start that is worse begins smaller.
