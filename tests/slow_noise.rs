@@ -115,3 +115,43 @@ fn noise_that_is_white_and_slow_at_once_is_no_cause() {
         );
     }
 }
+
+/// Cycles none of which is like another one, under such noise; and a sensor that bends by so much of it at the end of its range.
+fn unlike(seed: u64, bend: f64) -> Record {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut new = || NOISE * ((0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0);
+    let bears = |i: usize| {
+        let t = i as f64 / 200.0;
+        let level = 350.0 + 150.0 * (0.9 * t).sin();
+        level * (TAU * t * (1.0 + 0.01 * t)).sin() + 60.0 * (2.3 * t).sin()
+    };
+    let force: Vec<f64> = (0..6600).map(bears).collect();
+    let mut displacement = plays::displacement(&force);
+    let most = displacement
+        .iter()
+        .fold(0.0_f64, |most, u| most.max(u.abs()));
+    let mut slow = 0.0;
+    for read in &mut displacement {
+        slow = 0.93 * slow + (1.0 - 0.93_f64.powi(2)).sqrt() * new();
+        *read += bend * NOISE * (*read / most).powi(2) + slow + new();
+    }
+    plays::record("unlike", force, displacement)
+}
+
+/// Where nothing repeats it is told by what does not come back with the load, and a bend does.
+#[test]
+fn such_noise_is_no_structure_where_nothing_repeats_and_a_bend_is_a_cause() {
+    for seed in 1..=2 {
+        let findings = diagnose(&[unlike(seed, 0.0)], |_| ()).unwrap();
+        let said = (findings.verdict, findings.noise.method.as_str());
+        assert_eq!(
+            said.0,
+            Verdict::Clean,
+            "seed {seed}: {:?}",
+            named(&findings)
+        );
+        assert!(said.1.starts_with("residual"), "seed {seed}: {}", said.1);
+        let bent = diagnose(&[unlike(seed, 3.0)], |_| ()).unwrap();
+        assert_eq!(named(&bent), ["sensor_nonlinearity"], "seed {seed}");
+    }
+}

@@ -50,7 +50,10 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
     let both = records.iter().zip(&residuals).zip(loud).zip(plain);
     both.map(|(((record, residual), noise), plain)| {
         if let Some(plain) = plain {
-            return plain;
+            return Record {
+                calmed: true,
+                ..plain
+            };
         }
         let (drive, judged) = form.channels(record);
         // A load that is held after each step has a fast part that is none of noise.
@@ -67,6 +70,7 @@ pub fn without_drive_noise(form: Form, records: &[Record]) -> Vec<Record> {
         let (read, left) = told.unwrap_or_else(|| (drive.clone(), noise));
         *drive = calmed(&read, left);
         record.noisy_drive |= is_told;
+        record.calmed = true;
         record
     })
     .collect()

@@ -15,6 +15,7 @@ mod driven;
 pub mod experiment;
 pub mod findings;
 mod finely;
+mod first_noise;
 mod first_turns;
 mod forms;
 mod full_slip;

@@ -1,5 +1,6 @@
 //! Before any fit: the noise of the records, and what is held out.
 
+use super::first_noise;
 use super::gridded::{fitted, resolve};
 use super::mains_phase;
 use super::sizes::sizes;
@@ -8,12 +9,10 @@ use crate::causes::Scale;
 use crate::identify::beginning::{Beginning, early};
 use crate::identify::{Fit, Form, Problem, baseline};
 use crate::record::Record;
-use crate::record::cycles::rms;
-use crate::record::mains::without_lines;
-use crate::record::noise::{Noise, from_differences, from_residual};
-use crate::record::repeats::{from_repeats, from_steady_changes};
+use crate::record::noise::{Noise, from_residual};
 use crate::record::resolution::resolution;
 use crate::record::split::{Fitted, held_out, held_out_elsewhere};
+use crate::record::wandering::wandering;
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -36,6 +35,8 @@ pub struct Bench {
     pub scale: Scale,
     /// True where the drive of a record is read with noise, which no model answers as the joint did.
     pub noisy_drive: bool,
+    /// True of records whose drive was read anew without noise.
+    pub calmed: Vec<bool>,
     /// First samples of each record that are no witnesses: what they answer hangs on loads before them.
     pub unsure: Vec<usize>,
     /// True where sets without a cause that wears the joint were searched before, of joints made anew, which they leave as
@@ -72,7 +73,8 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         .map(|record| resolution(form.channels(record).1))
         .collect();
     let loud: Vec<bool> = records.iter().map(|r| r.noisy_drive).collect();
-    let noise = noise(&whole, &first, (&resolution, &loud));
+    let calmed: Vec<bool> = records.iter().map(|r| r.calmed).collect();
+    let noise = first_noise::told(&whole, &first, (&resolution, &loud, &calmed));
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
@@ -88,6 +90,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         resolution,
         scale,
         noisy_drive: loud.contains(&true),
+        calmed,
         unsure: vec![0; records.len()],
         wearing_sets: false,
     };
@@ -248,7 +251,13 @@ impl Bench {
                 if self.noise[k].repeated {
                     return self.noise[k];
                 }
-                let noise = from_residual(&self.witnesses(k, &residuals[k]));
+                let (input, left) = self.witnesses(k, &residuals[k]);
+                // What noise of the drive does to a model wanders as well, and is drawn where it is asked for.
+                let slow = match self.calmed[k] {
+                    true => None,
+                    false => wandering(&input, &left),
+                };
+                let noise = slow.unwrap_or_else(|| from_residual(&left));
                 Noise {
                     deviation: noise.deviation.max(self.resolution[k]),
                     ..noise
@@ -257,71 +266,19 @@ impl Bench {
             .collect()
     }
 
-    /// What is left of the samples of record `k` that a fit answers for, held-out ones included; of all where those are
-    /// too few.
-    fn witnesses(&self, k: usize, residual: &[f64]) -> Vec<f64> {
-        let marks = residual.iter().zip(&self.struck[k]).enumerate();
+    /// The drive, and what is left, of the samples of record `k` that a fit answers for, held-out ones included; of all
+    /// where those are too few.
+    fn witnesses(&self, k: usize, residual: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (input, _) = self.whole.channels(k);
+        let all = || input.iter().copied().zip(residual.iter().copied());
+        let marks = all().zip(&self.struck[k]).enumerate();
         let own = marks.filter(|(i, (_, struck))| *i >= self.unsure[k] && !**struck);
-        let own: Vec<f64> = own.map(|(_, (left, _))| *left).collect();
-        match own.len() < FEW {
-            true => residual.to_vec(),
+        let own: (Vec<f64>, Vec<f64>) = own.map(|(_, (both, _))| both).unzip();
+        match own.1.len() < FEW {
+            true => all().unzip(),
             false => own,
         }
     }
-}
-
-/// The lesser of what repeated cycles of a channel and of a residual tell: where cycles are sampled at other phases, the
-/// first holds what interpolation misses of a bent response, the second what noise of the drive does to a model.
-fn calmer(channel: Option<Noise>, residual: Option<Noise>) -> Option<Noise> {
-    let told = [channel, residual].into_iter().flatten();
-    told.min_by(|a, b| a.deviation.total_cmp(&b.deviation))
-}
-
-/// Noise of the judged channel: from cycles that repeat or change steadily where a record has them, else lent
-/// by the other records, else from the fastest variations of the baseline's residual.
-fn noise(problem: &Problem, first: &Fit, (least, loud): (&[f64], &[bool])) -> Vec<Noise> {
-    let mut residuals = first.residuals(problem);
-    // A hum does not repeat with the cycles and is no noise.
-    let hums = mains_phase::loudest_mains(problem, first);
-    let mut hum_free = Vec::new();
-    for (k, residual) in residuals.iter_mut().enumerate() {
-        let (_, judged) = problem.channels(k);
-        let time = &problem.records[k].time;
-        let quiet = without_lines(time, residual, &hums);
-        let both = judged.iter().zip(residual.iter().zip(&quiet));
-        hum_free.push(both.map(|(y, (r, q))| y - (r - q)).collect::<Vec<f64>>());
-        *residual = quiet;
-    }
-    let own: Vec<Option<Noise>> = residuals
-        .iter()
-        .enumerate()
-        .map(|(k, residual)| {
-            let (input, judged) = (problem.channels(k).0, &hum_free[k]);
-            let of_residual = from_repeats(input, residual);
-            let repeated = match loud[k] {
-                // What noise of the drive does to a model does so in every model.
-                true => of_residual,
-                false => calmer(from_repeats(input, judged), of_residual),
-            };
-            let found = repeated.or_else(|| from_steady_changes(input, residual));
-            found.filter(|n| !n.holds_a_change(residual))
-        })
-        .collect();
-    let lent = own.iter().flatten().max_by_key(|n| n.samples).copied();
-    own.iter()
-        .zip(&residuals)
-        .enumerate()
-        .map(|(k, (own, residual))| {
-            // Noise leaves at least itself after any fit: an estimate above what the baseline
-            // leaves holds a change of the response from cycle to cycle.
-            let most = 1.2 * rms(residual);
-            let own = own.filter(|n| n.deviation <= most);
-            let lent = lent.filter(|n| n.deviation <= most);
-            let mut noise = own.or(lent).unwrap_or_else(|| from_differences(residual));
-            noise.deviation = noise.deviation.max(least[k]);
-            noise
-        })
-        .collect()
 }
 
 #[cfg(test)]
@@ -329,6 +286,7 @@ mod tests {
     use super::*;
     use crate::diagnose::gridded::tests::slid;
     use crate::record::noise::tests::drawn;
+    use crate::record::repeats::from_repeats;
 
     /// Cycles of 37.3 samples of a bent spring: no cycle is sampled like the one before, and what lies between samples is
     /// not straight.

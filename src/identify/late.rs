@@ -113,6 +113,7 @@ mod tests {
             straight: false,
             drawn: false,
             noisy_drive: false,
+            calmed: false,
             alone: Vec::new(),
         };
         Prepared::new(&record, Form::Stop)

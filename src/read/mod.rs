@@ -85,6 +85,7 @@ pub fn file(path: &Path, options: &Options) -> Result<Loaded, ReadError> {
             straight: false,
             drawn: false,
             noisy_drive: false,
+            calmed: false,
             alone: Vec::new(),
         })
     } else if is_table {

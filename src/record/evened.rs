@@ -60,6 +60,7 @@ pub fn evened(record: &Record) -> Option<Record> {
         straight: record.straight,
         drawn: record.drawn,
         noisy_drive: record.noisy_drive,
+        calmed: record.calmed,
         alone: match record.alone.is_empty() {
             true => Vec::new(),
             false => alone.collect(),

@@ -20,6 +20,7 @@ mod rounded;
 mod spectrum;
 pub mod split;
 pub mod thinned;
+pub mod wandering;
 mod white_and_slow;
 pub mod written;
 
@@ -47,6 +48,8 @@ pub struct Record {
     pub drawn: bool,
     /// True where noise of the driving channel shows in what a model leaves.
     pub noisy_drive: bool,
+    /// True where the driving channel was read anew without noise that its joint did not feel, as far as that could be told.
+    pub calmed: bool,
     /// Samples, in order, that stood alone in a channel and were replaced by what their neighbours say: no witnesses.
     pub alone: Vec<usize>,
 }

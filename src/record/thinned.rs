@@ -43,6 +43,7 @@ pub fn thinned(record: &Record, most: usize) -> Option<Record> {
         straight: record.straight,
         drawn: record.drawn,
         noisy_drive: record.noisy_drive,
+        calmed: record.calmed,
         alone: alone.collect(),
     })
 }
