@@ -143,14 +143,14 @@ fn unlike(seed: u64, bend: f64) -> Record {
 fn such_noise_is_no_structure_where_nothing_repeats_and_a_bend_is_a_cause() {
     for seed in 1..=2 {
         let findings = diagnose(&[unlike(seed, 0.0)], |_| ()).unwrap();
-        let said = (findings.verdict, findings.noise.method.as_str());
         assert_eq!(
-            said.0,
+            findings.verdict,
             Verdict::Clean,
             "seed {seed}: {:?}",
             named(&findings)
         );
-        assert!(said.1.starts_with("residual"), "seed {seed}: {}", said.1);
+        let by = &findings.noise.method;
+        assert!(by.starts_with("residual"), "seed {seed}: {by}");
         let bent = diagnose(&[unlike(seed, 3.0)], |_| ()).unwrap();
         assert_eq!(named(&bent), ["sensor_nonlinearity"], "seed {seed}");
     }

@@ -2,6 +2,7 @@
 
 use super::mains_phase;
 use crate::identify::{Fit, Problem};
+use crate::record::Record;
 use crate::record::cycles::rms;
 use crate::record::mains::without_lines;
 use crate::record::noise::{Noise, from_differences};
@@ -18,11 +19,20 @@ fn calmer(channel: Option<Noise>, residual: Option<Noise>) -> Option<Noise> {
     told.min_by(|a, b| a.deviation.total_cmp(&b.deviation))
 }
 
+/// Noise that is white and slow at once in what is left of a record, see [`wandering`]; none where noise was taken off the drive:
+/// what that does to a model wanders as well, and is drawn where it is asked for.
+pub(super) fn unlike_the_load(calmed: bool, drive: &[f64], residual: &[f64]) -> Option<Noise> {
+    match calmed {
+        true => None,
+        false => wandering(drive, residual),
+    }
+}
+
 /// Noise that repeated cycles told, of the colour that all that is left has where that is hardly more: few cycles do not tell
 /// slow noise beside white noise.
-fn of_all_left(told: Noise, (drive, residual): (&[f64], &[f64])) -> Noise {
+fn of_all_left(told: Noise, of_all: impl FnOnce() -> Option<Noise>) -> Noise {
     let few = told.colour.share == 1.0;
-    let of_all = few.then(|| wandering(drive, residual)).flatten();
+    let of_all = few.then(of_all).flatten();
     match of_all.filter(|all| all.deviation < HARDLY_MORE * told.deviation) {
         Some(all) => Noise {
             colour: all.colour,
@@ -38,7 +48,7 @@ fn of_all_left(told: Noise, (drive, residual): (&[f64], &[f64])) -> Noise {
 pub(super) fn told(
     problem: &Problem,
     first: &Fit,
-    (least, loud, calmed): (&[f64], &[bool], &[bool]),
+    (least, records): (&[f64], &[Record]),
 ) -> Vec<Noise> {
     let mut residuals = first.residuals(problem);
     // A hum does not repeat with the cycles and is no noise.
@@ -58,18 +68,15 @@ pub(super) fn told(
         .map(|(k, residual)| {
             let (input, judged) = (problem.channels(k).0, &hum_free[k]);
             let of_residual = from_repeats(input, residual);
-            let repeated = match loud[k] {
+            let repeated = match records[k].noisy_drive {
                 // What noise of the drive does to a model does so in every model.
                 true => of_residual,
                 false => calmer(from_repeats(input, judged), of_residual),
             };
             let found = repeated.or_else(|| from_steady_changes(input, residual));
             let found = found.filter(|n| !n.holds_a_change(residual));
-            // What noise of a drive does to a model wanders as well.
-            match calmed[k] {
-                true => found,
-                false => found.map(|n| of_all_left(n, (input, residual))),
-            }
+            let of_all = || unlike_the_load(records[k].calmed, input, residual);
+            found.map(|n| of_all_left(n, of_all))
         })
         .collect();
     let lent = own.iter().flatten().max_by_key(|n| n.samples).copied();
@@ -117,11 +124,14 @@ mod tests {
             samples: 300,
             repeated: true,
         };
-        let of_all = of_all_left(told, (&drive, &residual));
+        let of_all = of_all_left(told, || unlike_the_load(false, &drive, &residual));
         assert!((of_all.colour.slow - 0.94).abs() < 0.04, "{of_all:?}");
         assert!((of_all.colour.share - 0.5).abs() < 0.15, "{of_all:?}");
         assert_eq!((of_all.beyond, of_all.deviation), (0.0, 1.0));
         let more: Vec<f64> = residual.iter().map(|left| 1.3 * left).collect();
-        assert_eq!(of_all_left(told, (&drive, &more)), told);
+        let of_more = of_all_left(told, || unlike_the_load(false, &drive, &more));
+        assert_eq!(of_more, told);
+        let calmed = of_all_left(told, || unlike_the_load(true, &drive, &residual));
+        assert_eq!(calmed, told);
     }
 }

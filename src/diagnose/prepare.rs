@@ -12,7 +12,6 @@ use crate::record::Record;
 use crate::record::noise::{Noise, from_residual};
 use crate::record::resolution::resolution;
 use crate::record::split::{Fitted, held_out, held_out_elsewhere};
-use crate::record::wandering::wandering;
 
 /// Records ready for the search.
 #[derive(Debug, Clone)]
@@ -72,9 +71,7 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         .iter()
         .map(|record| resolution(form.channels(record).1))
         .collect();
-    let loud: Vec<bool> = records.iter().map(|r| r.noisy_drive).collect();
-    let calmed: Vec<bool> = records.iter().map(|r| r.calmed).collect();
-    let noise = first_noise::told(&whole, &first, (&resolution, &loud, &calmed));
+    let noise = first_noise::told(&whole, &first, (&resolution, records));
     let held: Vec<Vec<bool>> = (0..whole.records.len())
         .map(|k| held_out(whole.channels(k).0))
         .collect();
@@ -89,8 +86,8 @@ pub fn prepare(form: Form, records: &[Record], beginnings: &[Beginning]) -> Benc
         noise: Vec::new(),
         resolution,
         scale,
-        noisy_drive: loud.contains(&true),
-        calmed,
+        noisy_drive: records.iter().any(|r| r.noisy_drive),
+        calmed: records.iter().map(|r| r.calmed).collect(),
         unsure: vec![0; records.len()],
         wearing_sets: false,
     };
@@ -252,11 +249,7 @@ impl Bench {
                     return self.noise[k];
                 }
                 let (input, left) = self.witnesses(k, &residuals[k]);
-                // What noise of the drive does to a model wanders as well, and is drawn where it is asked for.
-                let slow = match self.calmed[k] {
-                    true => None,
-                    false => wandering(&input, &left),
-                };
+                let slow = first_noise::unlike_the_load(self.calmed[k], &input, &left);
                 let noise = slow.unwrap_or_else(|| from_residual(&left));
                 Noise {
                     deviation: noise.deviation.max(self.resolution[k]),
